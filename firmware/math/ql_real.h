@@ -1,0 +1,92 @@
+/* ql_real.h - positive real numbers: a 32-bit mantissa and an exponent */
+/* SPDX-License-Identifier: MIT */
+
+/* The geometry term of a light sample spans a hundred powers of two, so it is
+ * worked out as m 2^e with m in [2^31, 2^32), or m = 0 for zero. Not a float:
+ * no signs, no infinities, no rounding modes; a handful of operations, each
+ * with its bound. Errors are relative; one ulp is 2^-31. */
+
+#ifndef QL_REAL_H
+#define QL_REAL_H
+
+#include "math/ql_fx.h"
+#include "math/ql_lut.h"
+
+typedef struct {
+    uint32_t m;
+    int16_t e;
+} ql_real_t;
+
+/* The number n, cut to its 32 highest bits: relative error in (-2^-31, 0]. */
+QL_INLINE ql_real_t ql_real_from_u64(uint64_t n)
+{
+    const unsigned shift = ql_clz64(n);
+    ql_real_t r = {0, 0};
+
+    if (shift < 64) {
+        r.m = (uint32_t)(n << shift >> 32);
+        r.e = (int16_t)(32 - (int16_t)shift);
+    }
+    return r;
+}
+
+/* a b, relative error in (-2^-30, 0]. */
+QL_INLINE ql_real_t ql_real_mul(ql_real_t a, ql_real_t b)
+{
+    const uint32_t high = ql_mulhi_u32(a.m, b.m); /* 0 or >= 2^30 */
+    ql_real_t r;
+
+    r.m = high;
+    r.e = (int16_t)(a.e + b.e + 32);
+    if (high < 0x80000000u) {
+        r.m = high << 1;
+        r.e = (int16_t)(r.e - 1);
+    }
+    return r;
+}
+
+/* Reciprocal of a mantissa m in [2^31, 2^32).
+ *
+ *   m       -  m / 2^32 in [1/2, 1)
+ *   return  2^63 / m in (2^31, 2^32): half the reciprocal of m / 2^32, u0.32
+ *
+ * Error: at most 4 ulp of 2^-32 (tests/unit/test_real.c).
+ * Cost:  one look-up, five multiplications.
+ * From:  Newton's method, r' = r (2 - m r), twice from 7.9 bits.
+ */
+uint32_t ql_recip_m(uint32_t m);
+
+/* Reciprocal square root of a mantissa m in [2^30, 2^32).
+ *
+ *   m       -  m / 2^32 in [1/4, 1)
+ *   return  2^47 / sqrt(m) in [2^31, 2^32]: half of 1/sqrt(m / 2^32), u0.32;
+ *           2^32 itself is cut to 2^32 - 1, and the error may reach below 2^31
+ *
+ * Error: at most 2^-15 (draft) or 2^-28 (fine), relative.
+ * Cost:  one look-up, four multiplications (draft) or seven (fine).
+ * From:  Newton's method, r' = r (3 - m r r) / 2, once or twice.
+ */
+uint32_t ql_rsqrt_m(uint32_t m);
+
+/* 1 / a; 0 for 0. */
+QL_INLINE ql_real_t ql_real_recip(ql_real_t a)
+{
+    ql_real_t r = {0, 0};
+
+    if (a.m != 0) {
+        r.m = ql_recip_m(a.m); /* 2^63 / m */
+        r.e = (int16_t)(-63 - a.e);
+    }
+    return r;
+}
+
+/* Square root of a fraction.
+ *
+ *   x       u0.32
+ *   return  u0.32, cut below 1
+ *
+ * Error: relative, that of ql_rsqrt_m() and 2 ulp; exact for 0.
+ */
+ql_uq32_t ql_sqrt_uq32(ql_uq32_t x);
+
+#endif

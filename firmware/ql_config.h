@@ -1,0 +1,102 @@
+/* ql_config.h - every choice: default, allowed values, what it costs */
+/* SPDX-License-Identifier: MIT */
+
+/* A choice is always a number, tested with #if. Set it on the command line
+ * (-DQL_CFG_PRECISION=0) or in the header qlux-scene --features writes. */
+
+#ifndef QL_CONFIG_H
+#define QL_CONFIG_H
+
+#ifdef QL_CFG_FEATURES_HEADER
+#include QL_CFG_FEATURES_HEADER
+#endif
+
+/* QL_CFG_PRECISION: 0 draft, 1 fine. Fixes the sub-grid bits f of positions
+ * and the bits b of directions (QL_POS_BITS, QL_DIR_BITS below); the algorithm
+ * is the same. Fine costs about 1.5 times the instructions. */
+#ifndef QL_CFG_PRECISION
+#define QL_CFG_PRECISION 1
+#endif
+
+/* QL_CFG_NODE16, QL_CFG_NODE8: 0 or 1. Which BVH node widths are built in; at
+ * least one. Each costs about 700 bytes of code. */
+#ifndef QL_CFG_NODE16
+#define QL_CFG_NODE16 1
+#endif
+#ifndef QL_CFG_NODE8
+#define QL_CFG_NODE8 1
+#endif
+
+/* QL_CFG_PAGES: 0 or 1. Scenes of more than 65,535 vertices. Two instructions a
+ * triangle test. */
+#ifndef QL_CFG_PAGES
+#define QL_CFG_PAGES 1
+#endif
+
+/* QL_CFG_LIGHTS: 0 or 1. Direct light by points on the emitters; 0 suits only
+ * scenes without any. About 1,500 bytes. */
+#ifndef QL_CFG_LIGHTS
+#define QL_CFG_LIGHTS 1
+#endif
+
+/* QL_CFG_TWO_SIDED: 0 or 1. Emitters that shine from both sides. */
+#ifndef QL_CFG_TWO_SIDED
+#define QL_CFG_TWO_SIDED 1
+#endif
+
+/* QL_CFG_DIAG: 0 or 1. Count rays, paths and saturations in ql_diag_t. */
+#ifndef QL_CFG_DIAG
+#define QL_CFG_DIAG 1
+#endif
+
+/* QL_CFG_BVH_STACK: 4 to 64. Deepest BVH that can be traversed; one pointer of
+ * stack each. qlux-scene never builds deeper than 32. */
+#ifndef QL_CFG_BVH_STACK
+#define QL_CFG_BVH_STACK 32
+#endif
+
+/* QL_CFG_ASSERT: 0 or 1. Check our own claims at run time; needs a host. */
+#ifndef QL_CFG_ASSERT
+#define QL_CFG_ASSERT 0
+#endif
+
+/* Bits that QL_CFG_PRECISION stands for. */
+#if QL_CFG_PRECISION == 0
+#define QL_POS_BITS 0
+#define QL_DIR_BITS 15
+#elif QL_CFG_PRECISION == 1
+#define QL_POS_BITS 8
+#define QL_DIR_BITS 22
+#else
+#error "QL_CFG_PRECISION: use 0 (draft) or 1 (fine)"
+#endif
+
+#if QL_CFG_NODE16 != 0 && QL_CFG_NODE16 != 1
+#error "QL_CFG_NODE16: use 0 or 1"
+#endif
+#if QL_CFG_NODE8 != 0 && QL_CFG_NODE8 != 1
+#error "QL_CFG_NODE8: use 0 or 1"
+#endif
+#if !QL_CFG_NODE16 && !QL_CFG_NODE8
+#error "QL_CFG_NODE16 and QL_CFG_NODE8 are both 0: set one of them to 1"
+#endif
+#if QL_CFG_BVH_STACK < 4 || QL_CFG_BVH_STACK > 64
+#error "QL_CFG_BVH_STACK: use 4 to 64"
+#endif
+#if QL_CFG_PAGES != 0 && QL_CFG_PAGES != 1
+#error "QL_CFG_PAGES: use 0 or 1"
+#endif
+#if QL_CFG_LIGHTS != 0 && QL_CFG_LIGHTS != 1
+#error "QL_CFG_LIGHTS: use 0 or 1"
+#endif
+#if QL_CFG_TWO_SIDED != 0 && QL_CFG_TWO_SIDED != 1
+#error "QL_CFG_TWO_SIDED: use 0 or 1"
+#endif
+#if QL_CFG_DIAG != 0 && QL_CFG_DIAG != 1
+#error "QL_CFG_DIAG: use 0 or 1"
+#endif
+#if QL_CFG_ASSERT != 0 && QL_CFG_ASSERT != 1
+#error "QL_CFG_ASSERT: use 0 or 1"
+#endif
+
+#endif

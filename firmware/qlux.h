@@ -1,0 +1,35 @@
+/* qlux.h - the whole public API: open a scene, render a line, read pixels */
+/* SPDX-License-Identifier: MIT */
+
+/* Synopsis (tests/unit/test_api.c compiles and runs it):
+ *
+ *     static uint8_t line[QL_LINE_BYTES(128, QL_FORMAT_RGB888)];
+ *     ql_scene_t scene;
+ *     ql_render_t render;
+ *     ql_settings_t settings = QL_SETTINGS_DEFAULT;
+ *     const ql_output_t output = {QL_FORMAT_RGB888, line};
+ *
+ *     settings.width = 128;
+ *     settings.height = 64;
+ *     if (ql_blob_open(&scene, blob, blob_size) == QL_OK &&
+ *             ql_render_init(&render, &scene, &settings) == QL_OK) {
+ *         for (uint16_t y = 0; y < 64; y++) {
+ *             ql_render_line(&render, y, &output, 1);
+ *             send(line);
+ *         }
+ *     }
+ *
+ * A picture is a pure function of (blob, settings): compiler, word size, byte
+ * order, order of lines and threads change no bit of it. The core owns no
+ * memory; a ql_render_t is read-only while rendering except for its counters,
+ * so give each thread its own copy. */
+
+#ifndef QLUX_H
+#define QLUX_H
+
+#include "render/ql_line.h"
+#include "scene/ql_blob.h"
+
+#define QLUX_VERSION "0.1.0"
+
+#endif

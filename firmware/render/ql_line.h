@@ -1,0 +1,74 @@
+/* ql_line.h - settings of a picture; render one pixel or one scanline */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef QL_LINE_H
+#define QL_LINE_H
+
+#include "render/ql_film.h"
+#include "render/ql_tonemap.h"
+#include "scene/ql_camera.h"
+#include "base/ql_settings.h"
+
+/* A scene made ready to render with some settings. */
+typedef struct {
+    const ql_scene_t *scene;
+    ql_settings_t settings;
+    ql_camera_t camera;
+    ql_real_t exposure; /* display value of one radiance unit */
+    ql_diag_t diag;     /* counters; zeroed by ql_render_init() */
+} ql_render_t;
+
+/* One encoding of a scanline that ql_render_line() writes. */
+typedef struct {
+    ql_format_t format;
+    uint8_t *pixels; /* QL_LINE_BYTES(width, format) bytes */
+} ql_output_t;
+
+/* Make a scene ready to render.
+ *
+ *   render    -  out: all zero if this fails
+ *   scene     -  from ql_blob_open(); must outlive render
+ *   settings  -  copied; width or height 0 means the scene's own
+ *   return    QL_OK, or QL_ERR_SETTINGS: a field outside its range
+ */
+QL_MUST_CHECK ql_status_t ql_render_init(ql_render_t *render,
+        const ql_scene_t *scene, const ql_settings_t *settings);
+
+/* Add samples of one pixel to its sums.
+ *
+ *   render  -   from ql_render_init()
+ *   x, y    px  0..width-1 from the left, 0..height-1 from the top
+ *   first   -   index of the first sample, 0..2^24-1
+ *   count   -   how many; first + count <= 2^24
+ *   sum     u40.24 radiance units of the blob: linear RGB, added to, saturating
+ *
+ * Exact: sums of integers, so any split of the samples adds up to the same
+ * bits. A picture of n samples is first = 0, count = n.
+ */
+void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
+        uint32_t first, uint32_t count, ql_sum_t *sum);
+
+/* Encode one pixel from its sums.
+ *
+ *   render   -   from ql_render_init(): exposure
+ *   x, y     px  position
+ *   sum      -   its sums
+ *   samples  -   how many samples they hold; 0 gives black
+ *   outputs  -   array of count encodings, each with its own line of pixels
+ *   count    -   1 or more
+ */
+void ql_render_encode(const ql_render_t *render, uint16_t x, uint16_t y,
+        const ql_sum_t *sum, uint32_t samples, const ql_output_t *outputs,
+        uint8_t count);
+
+/* Render one scanline in one or more encodings.
+ *
+ *   render   -   from ql_render_init()
+ *   y        px  0..height-1 from the top; any order gives the same bits
+ *   outputs  -   array of count encodings, each with its own pixels
+ *   count    -   1 or more
+ */
+void ql_render_line(ql_render_t *render, uint16_t y, const ql_output_t *outputs,
+        uint8_t count);
+
+#endif

@@ -1,0 +1,60 @@
+/* ql_camera.h - pixel and subpixel position to ray */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef QL_CAMERA_H
+#define QL_CAMERA_H
+
+#include "scene/ql_ray.h"
+#include "scene/ql_scene.h"
+
+/* The blob's camera for one picture size: origin and direction of the ray
+ * through the picture's top left corner, and their steps per pixel. */
+typedef struct {
+    int64_t origin[3];    /* grid units, s31.32 */
+    int64_t origin_x[3];  /* per pixel to the right */
+    int64_t origin_y[3];  /* per pixel down */
+    int64_t direction[3]; /* s1.30 with 16 more fraction bits */
+    int64_t direction_x[3];
+    int64_t direction_y[3];
+} ql_camera_t;
+
+/* One pixel of a picture: its corner and steps, at the precision of a ray. */
+typedef struct {
+    int64_t origin[3];    /* s.16: the pixel's top left corner */
+    int32_t direction[3]; /* s1.30 */
+    const ql_camera_t *camera;
+} ql_camera_pixel_t;
+
+/* Make a camera ready for a picture size.
+ *
+ *   camera         -   out
+ *   scene          -   open
+ *   width, height  px  1..16384; pixels are square
+ *   return         false if the picture reaches further than 2^30 grid units
+ */
+QL_MUST_CHECK bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
+        uint16_t width, uint16_t height);
+
+/* Begin a pixel.
+ *
+ *   pixel   -   out
+ *   camera  -   from ql_camera_init(); must outlive pixel
+ *   x, y    px  from the top left
+ */
+void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
+        uint16_t x, uint16_t y);
+
+/* The ray through a point of a pixel, entering the box of the scene.
+ *
+ *   pixel   -     from ql_camera_pixel()
+ *   u1, u2  uq32  where in the pixel: right and down from its corner
+ *   ray     -     out, if true is returned
+ *   return  false if the ray misses the box [0, 32767]^3
+ *
+ * Error: origin within an ulp of its format in each component, direction within
+ *        that of ql_dir_round().
+ */
+bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uq32_t u1, ql_uq32_t u2,
+        ql_ray_t *ray);
+
+#endif

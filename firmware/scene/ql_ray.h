@@ -1,0 +1,31 @@
+/* ql_ray.h - rays, segments and hits */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef QL_RAY_H
+#define QL_RAY_H
+
+#include "math/ql_vec.h"
+
+/* A ray from a point of the box [0, 32767]^3. A closest-hit ray has no end and
+ * its direction's largest component is 2^(b-1)..2^b; a segment goes from origin
+ * to origin + direction exactly, whatever its length. */
+typedef struct {
+    ql_vec3_t origin;    /* ql_pos_t */
+    ql_vec3_t direction; /* ql_dir_t; ql_pos_t for a segment */
+} ql_ray_t;
+
+/* The nearest triangle along a ray. */
+typedef struct {
+    uint16_t tri_idx;
+    bool front;  /* seen from its counter-clockwise side */
+    ql_uq30_t t; /* hit = origin + t direction */
+} ql_hit_t;
+
+/* A point on a surface, moved to the side it was seen from. */
+typedef struct {
+    ql_vec3_t p;    /* ql_pos_t: strictly on the side of n */
+    ql_vec3_t n;    /* e1 x e2, exact, turned to that side */
+    uint32_t inv_n; /* 1/|n|, packed as in ql_blob_tri_t */
+} ql_surface_t;
+
+#endif

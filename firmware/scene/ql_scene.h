@@ -1,0 +1,39 @@
+/* ql_scene.h - typed, read-only access to the tables of a checked blob */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef QL_SCENE_H
+#define QL_SCENE_H
+
+#include "math/ql_vec.h"
+#include "scene/ql_blob.h"
+
+/* Corner i of a triangle, grid units. */
+QL_INLINE ql_vec3_t ql_scene_corner(
+        const ql_scene_t *scene, const ql_blob_tri_t *tri, unsigned i)
+{
+    const ql_blob_vertex_t *v = scene->vertices + QL_LE16(tri->vertex[i]);
+    ql_vec3_t p;
+
+#if QL_CFG_PAGES
+    v += (uint32_t)(QL_LE16(tri->material) >> 14) << 16;
+#endif
+    p.x = (int32_t)QL_LE16(v->xyz[0]);
+    p.y = (int32_t)QL_LE16(v->xyz[1]);
+    p.z = (int32_t)QL_LE16(v->xyz[2]);
+    return p;
+}
+
+/* Do emitters shine from both sides? */
+QL_INLINE bool ql_scene_two_sided(const ql_scene_t *scene)
+{
+    return QL_CFG_TWO_SIDED && scene->two_sided;
+}
+
+/* The material of a triangle. */
+QL_INLINE const ql_blob_material_t *ql_scene_material(
+        const ql_scene_t *scene, const ql_blob_tri_t *tri)
+{
+    return scene->materials + (QL_LE16(tri->material) & 0x3fffu);
+}
+
+#endif

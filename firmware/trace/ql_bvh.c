@@ -1,0 +1,375 @@
+/* ql_bvh.c - BVH traversal for both node widths */
+/* SPDX-License-Identifier: MIT */
+
+/* The box test. Let z be the ray's dominant axis and d its direction rounded to
+ * 15 bits. In the planes (x, z) and (y, z) the ray is a line, and a box is a
+ * rectangle of centre c and half h; with g = c - o the line meets it iff
+ *     |g_x d_z - g_z d_x| <= h_x |d_z| + h_z |d_x|.
+ * The plane (x, y) is left out, which costs a few boxes more and never loses a
+ * hit. Along each axis the ray is an interval; boxes have integer bounds and
+ * hits lie strictly between the ray's ends, so the integers strictly between
+ * are enough (the origin itself if d = 0). Axis z is tested always and its
+ * interval shortened by closest hits; axes x and y are tested before the
+ * triangles of a leaf: they keep a ray from the surfaces where it begins and
+ * ends. Each test is necessary for a hit, and none needs a division.
+ *
+ * Draft: o and d are the ray's own integers, so the line tests are exact.
+ * Fine: o and d are rounded, by 1/2 at most, so |g_x d_z - g_z d_x| errs by
+ * at most (|g_x| + |g_z| + |d_x| + |d_z| + h_x + h_z) / 2 + 1 <= 3 2^15, the
+ * margin below.
+ *
+ * Bounds: c, o <= 32767, |d| <= 2^15, h <= 2^14. c_x d_z - c_z d_x and the same
+ * of o are below 2^31 in size; their difference is the exact g product, taken
+ * modulo 2^32, which is below 2^31 too. The right side is <= 2^30 + margin. */
+
+#include "trace/ql_bvh.h"
+
+#include "math/ql_real.h"
+#include "trace/ql_tri.h"
+
+#if QL_POS_BITS == 0
+#define MARGIN 0
+#else
+#define MARGIN 98304l
+#endif
+
+/* The integers an interval holds, as the test wants them: low..low + span. */
+typedef struct {
+    int32_t low, span;
+} interval_t;
+
+/* A ray as the box test wants it. kx, ky, kz are byte offsets into a box. */
+typedef struct {
+    uint8_t kx, ky, kz;
+    uint8_t backward;   /* bit k: the direction is negative on axis k */
+    int32_t dx, dy, dz; /* 15 bits; dz > 0 */
+    int32_t ax, ay;     /* |dx|, |dy| */
+    int32_t ox, oy;     /* o_x d_z - o_z d_x less the margin */
+    interval_t z;       /* the ray's interval on axis z */
+    int32_t start;      /* o_z, ql_pos_t */
+    uint32_t size_z;    /* |d_z| of the ray itself */
+} probe_t;
+
+/* Do low..low + span and c - h..c + h have an integer in common? An empty
+ * interval (span -1 or -2) and a flat box may be said to: that costs a test. */
+QL_INLINE bool meets(interval_t i, int32_t c, int32_t h)
+{
+    return (uint32_t)(c + h - i.low) <= (uint32_t)(2 * h + i.span);
+}
+
+/* The grid integers strictly between o and o + d, or from o on to the edge of
+ * the box. d = 0 has those around o. */
+QL_INLINE interval_t interval_of(ql_pos_t o, int32_t d, bool segment)
+{
+    int32_t low = ql_asr32(o, QL_POS_BITS);
+    int32_t high = ql_asr32(o + (1 << QL_POS_BITS) - 1, QL_POS_BITS);
+    interval_t i;
+
+    if (d > 0) {
+        low++;
+        high = segment ? ql_asr32(o + d - 1, QL_POS_BITS) : QL_GRID_MAX;
+    } else if (d < 0) {
+        low = segment ? ql_asr32(o + d, QL_POS_BITS) + 1 : 0;
+        high--;
+    }
+    i.low = low;
+    i.span = high - low;
+    return i;
+}
+
+/* The line tests' numbers; z is the dominant axis, x and y the others, given as
+ * (origin, direction, byte offset). */
+QL_INLINE void probe_axes(probe_t *p, int32_t ox, int32_t dx, uint8_t kx,
+        int32_t oy, int32_t dy, uint8_t ky, int32_t oz, int32_t dz, uint8_t kz)
+{
+    const uint32_t az = ql_abs32(dz);
+
+    p->kx = kx;
+    p->ky = ky;
+    p->kz = kz;
+    p->start = oz;
+    p->size_z = az;
+#if QL_POS_BITS > 0
+    /* round the origin to the grid and the direction to 15 bits */
+    ox = (ox + (1 << (QL_POS_BITS - 1))) >> QL_POS_BITS;
+    oy = (oy + (1 << (QL_POS_BITS - 1))) >> QL_POS_BITS;
+    oz = (oz + (1 << (QL_POS_BITS - 1))) >> QL_POS_BITS;
+    if (az > 32767u) {
+        const unsigned excess = 17 - ql_clz32(az);
+        const int32_t round = (int32_t)1 << (excess - 1);
+
+        dx = ql_asr32(dx + round, excess);
+        dy = ql_asr32(dy + round, excess);
+        dz = ql_asr32(dz + round, excess);
+    }
+#endif
+    if (dz < 0) {
+        dx = -dx;
+        dy = -dy;
+        dz = -dz;
+    }
+    p->dx = dx;
+    p->dy = dy;
+    p->dz = dz;
+    p->ax = (int32_t)ql_abs32(dx);
+    p->ay = (int32_t)ql_abs32(dy);
+    p->ox = ox * dz - oz * dx - MARGIN;
+    p->oy = oy * dz - oz * dy - MARGIN;
+}
+
+static QL_NOINLINE void probe_begin(
+        probe_t *p, interval_t axes[3], const ql_ray_t *ray, bool segment)
+{
+    const ql_vec3_t d = ray->direction, o = ray->origin;
+    const uint32_t ax = ql_abs32(d.x), ay = ql_abs32(d.y), az = ql_abs32(d.z);
+
+    p->backward = (uint8_t)((d.x < 0) | (d.y < 0) << 1 | (d.z < 0) << 2);
+    if (az >= ax && az >= ay) {
+        probe_axes(p, o.x, d.x, 0, o.y, d.y, 2, o.z, d.z, 4);
+    } else if (ay >= ax) {
+        probe_axes(p, o.x, d.x, 0, o.z, d.z, 4, o.y, d.y, 2);
+    } else {
+        probe_axes(p, o.y, d.y, 2, o.z, d.z, 4, o.x, d.x, 0);
+    }
+    axes[0] = interval_of(o.x, d.x, segment);
+    axes[1] = interval_of(o.y, d.y, segment);
+    axes[2] = interval_of(o.z, d.z, segment);
+    p->z = axes[p->kz >> 1];
+}
+
+QL_INLINE int32_t load16(const void *words, unsigned offset)
+{
+    return (int32_t)QL_LE16(
+            *(const uint16_t *)(const void *)((const char *)words + offset));
+}
+
+/* The centre and half of a box along one axis, grid units. node counts
+ * children: child n & 1 of pair n / 2. bits is a constant, so only one of the
+ * two remains. */
+QL_INLINE void box_axis(const ql_scene_t *scene, uint32_t node, unsigned bits,
+        unsigned offset, int32_t *centre, int32_t *half)
+{
+    if (bits == 16) {
+        const ql_blob_node16_t *n =
+                (const ql_blob_node16_t *)scene->pairs + node;
+
+        *centre = load16(n->centre, offset);
+        *half = load16(n->half, offset);
+    } else {
+        const ql_blob_pair8_t *n =
+                (const ql_blob_pair8_t *)scene->pairs + (node >> 1);
+        const unsigned axis = offset >> 1;
+
+        *centre = load16(n->base, offset) +
+                  ((int32_t)n->centre[node & 1][axis] << n->shift);
+        *half = (int32_t)n->half[node & 1][axis] << n->shift;
+    }
+}
+
+QL_INLINE bool box_hit(
+        const ql_scene_t *scene, uint32_t node, unsigned bits, const probe_t *p)
+{
+    int32_t cz, hz, c, h;
+    uint32_t a, b;
+
+    box_axis(scene, node, bits, p->kz, &cz, &hz);
+    if (!meets(p->z, cz, hz)) {
+        return false;
+    }
+    box_axis(scene, node, bits, p->kx, &c, &h);
+    a = (uint32_t)(c * p->dz) - (uint32_t)(cz * p->dx) - (uint32_t)p->ox;
+    b = (uint32_t)(h * p->dz) + (uint32_t)(hz * p->ax);
+    if (a + b > 2 * b + 2 * MARGIN) {
+        return false;
+    }
+    box_axis(scene, node, bits, p->ky, &c, &h);
+    a = (uint32_t)(c * p->dz) - (uint32_t)(cz * p->dy) - (uint32_t)p->oy;
+    b = (uint32_t)(h * p->dz) + (uint32_t)(hz * p->ay);
+    return a + b <= 2 * b + 2 * MARGIN;
+}
+
+/* The intervals of the axes that are not dominant. */
+QL_INLINE bool sides_hit(const ql_scene_t *scene, uint32_t node, unsigned bits,
+        const probe_t *p, const interval_t axes[3])
+{
+    int32_t c, h;
+
+    box_axis(scene, node, bits, p->kx, &c, &h);
+    if (!meets(axes[p->kx >> 1], c, h)) {
+        return false;
+    }
+    box_axis(scene, node, bits, p->ky, &c, &h);
+    return meets(axes[p->ky >> 1], c, h);
+}
+
+/* Where a node leads: as root_link and root_meta of the header. */
+QL_INLINE unsigned node_link(
+        const ql_scene_t *scene, uint32_t node, unsigned bits, unsigned *meta)
+{
+    if (bits == 16) {
+        const ql_blob_node16_t *n =
+                (const ql_blob_node16_t *)scene->pairs + node;
+
+        *meta = QL_LE16(n->meta);
+        return QL_LE16(n->link);
+    } else {
+        const ql_blob_pair8_t *n =
+                (const ql_blob_pair8_t *)scene->pairs + (node >> 1);
+
+        *meta = node & 1 ? n->meta >> 4 : n->meta & 15u;
+        return QL_LE16(n->link[node & 1]);
+    }
+}
+
+/* t = T / det as u2.30. det is cut to 30 bits and T with it, and the lowest bit
+ * is 0: the error is below 2^-29 t + 2^-27. t < 4 because hits lie in the box
+ * and the largest component of the direction is 2^(b-1) or more. */
+static ql_uq30_t parameter(uint64_t t, uint64_t det)
+{
+    const unsigned zeros = ql_clz64(det);
+    uint32_t det30, t30;
+
+    if (zeros < 34) {
+        det30 = (uint32_t)(det >> (34 - zeros));
+        t30 = (uint32_t)(t >> (34 - zeros));
+    } else {
+        det30 = (uint32_t)(det << (zeros - 34));
+        t30 = (uint32_t)(t << (zeros - 34));
+    }
+    /* 2^63 / (4 det30) = 2^61 / det30, times t30 is t 2^61; >> 32, << 1 */
+    return ql_mulhi_u32(t30, ql_recip_m(det30 << 2)) << 1;
+}
+
+/* End the interval at a hit, o_z + t d_z, or a little beyond. */
+QL_INLINE void probe_shorten(probe_t *p, ql_uq30_t t)
+{
+    const int32_t way = (int32_t)ql_mulhi_u32(t, p->size_z << 2) + 1;
+
+    if ((unsigned)p->backward >> (p->kz >> 1) & 1u) {
+        const int32_t low = ql_asr32(p->start - way, QL_POS_BITS);
+
+        p->z.span += p->z.low - low;
+        p->z.low = low;
+    } else {
+        p->z.span = ql_asr32(p->start + way, QL_POS_BITS) - p->z.low;
+    }
+}
+
+/* Test the triangles of a leaf; shorten the ray to the nearest hit. */
+QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
+        unsigned first, unsigned count, probe_t *p, ql_hit_t *hit)
+{
+    const ql_blob_tri_t *tri = scene->triangles + first;
+    const ql_blob_tri_t *const end = tri + count;
+
+    for (; tri < end; tri++) {
+        uint64_t det, t;
+        const int side = ql_tri_hit(scene, tri, ray, &det, &t);
+
+        if (side != 0) {
+            const ql_uq30_t at = parameter(t, det);
+            const uint16_t i = (uint16_t)(tri - scene->triangles);
+
+            if (at < hit->t || (at == hit->t && i < hit->tri_idx)) {
+                hit->t = at;
+                hit->tri_idx = i;
+                hit->front = side > 0;
+                probe_shorten(p, at);
+            }
+        }
+    }
+}
+
+QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
+        unsigned first, unsigned count)
+{
+    const ql_blob_tri_t *tri = scene->triangles + first;
+    const ql_blob_tri_t *const end = tri + count;
+
+    for (; tri < end; tri++) {
+        uint64_t det, t;
+
+        if (ql_tri_hit(scene, tri, ray, &det, &t) != 0 && t < det) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Walk the tree front to back. hit is NULL for an any-hit segment. Returns true
+ * as soon as a segment is blocked. */
+QL_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit,
+        unsigned bits)
+{
+    uint32_t stack[QL_CFG_BVH_STACK];
+    uint32_t *top = stack;
+    unsigned link = scene->root_link, meta = scene->root_meta;
+    uint32_t node;
+    interval_t axes[3];
+    probe_t begun, p;
+
+    probe_begin(&begun, axes, ray, hit == NULL);
+    p = begun; /* a copy whose address stays here can live in registers */
+    for (;;) {
+        if (meta < 3) {
+            /* the far child waits; QL_CFG_BVH_STACK covers the checked depth */
+            node = 2 * (uint32_t)link + ((unsigned)p.backward >> meta & 1u);
+            *top++ = node ^ 1u;
+        } else {
+            if (hit != NULL) {
+                leaf_closest(scene, ray, link, meta - 3, &p, hit);
+            } else if (leaf_occluded(scene, ray, link, meta - 3)) {
+                return true;
+            }
+            if (top == stack) {
+                return false;
+            }
+            node = *--top;
+        }
+        for (;;) {
+            if (box_hit(scene, node, bits, &p)) {
+                link = node_link(scene, node, bits, &meta);
+                if (meta < 3 || sides_hit(scene, node, bits, &p, axes)) {
+                    break;
+                }
+            }
+            if (top == stack) {
+                return false;
+            }
+            node = *--top;
+        }
+    }
+}
+
+#define NO_HIT 0xffffffffu
+
+bool ql_bvh_closest_hit(
+        const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit)
+{
+    hit->t = NO_HIT;
+    hit->tri_idx = 0;
+    hit->front = false;
+#if QL_CFG_NODE16
+    if (!QL_CFG_NODE8 || scene->node_bits == 16) {
+        (void)walk(scene, ray, hit, 16);
+    }
+#endif
+#if QL_CFG_NODE8
+    if (!QL_CFG_NODE16 || scene->node_bits == 8) {
+        (void)walk(scene, ray, hit, 8);
+    }
+#endif
+    return hit->t != NO_HIT;
+}
+
+bool ql_bvh_occluded(const ql_scene_t *scene, const ql_ray_t *ray)
+{
+#if QL_CFG_NODE16
+    if (!QL_CFG_NODE8 || scene->node_bits == 16) {
+        return walk(scene, ray, NULL, 16);
+    }
+#endif
+#if QL_CFG_NODE8
+    return walk(scene, ray, NULL, 8);
+#endif
+}

@@ -1,0 +1,37 @@
+/* ql_surface.h - the point that was hit, on the side it was seen from */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef QL_SURFACE_H
+#define QL_SURFACE_H
+
+#include "scene/ql_ray.h"
+#include "scene/ql_scene.h"
+
+/* Work out the surface at a hit.
+ *
+ *   scene    -  open
+ *   ray      -  the ray
+ *   hit      -  what it hit
+ *   surface  -  out
+ *
+ * The point is cut towards the ray's origin, so it stays in every axis-aligned
+ * room the ray was in, then stepped along the dominant axis of the normal until
+ * it is strictly on the side it was seen from: an exact test, no epsilon.
+ * At most 2 steps were ever needed (tests/unit/test_surface.c); the loop ends
+ * after QL_SIDE_STEPS_MAX whatever the triangle.
+ */
+void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
+        const ql_hit_t *hit, ql_surface_t *surface);
+
+#define QL_SIDE_STEPS_MAX 4
+
+/* Step p along the dominant axis of n until n.(p - on) > 0.
+ *
+ *   p       pos   a point within an ulp or two of the plane; stepped
+ *   on      grid  a corner in the plane
+ *   n       -     the plane's exact normal
+ *   return  how many steps, 0..QL_SIDE_STEPS_MAX
+ */
+unsigned ql_surface_step(ql_vec3_t *p, ql_vec3_t on, ql_vec3_t n);
+
+#endif
