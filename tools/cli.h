@@ -1,0 +1,85 @@
+/* cli.h - what every program shares: messages, exit codes, safe output */
+/* SPDX-License-Identifier: MIT */
+
+/* Exit codes are a contract: 0 done, 1 wrong usage, 2 bad input, 3 could not
+ * read or write. Output goes to a temporary name beside its target and is
+ * renamed when complete, so nothing half-written is ever left behind: not by
+ * an error, not by a full disk, not by Ctrl-C. */
+
+#ifndef CLI_H
+#define CLI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+enum { CLI_DONE = 0, CLI_USAGE = 1, CLI_INPUT = 2, CLI_IO = 3 };
+
+/* Begin: remembers the program's name for messages, catches SIGINT and SIGTERM
+ * so that temporary files are removed. Call first in main(). */
+void cli_begin(const char *program);
+
+/* Print "program: message" to stderr, remove temporary files, exit(code). */
+#if defined(__GNUC__)
+__attribute__((noreturn, format(printf, 2, 3)))
+#endif
+void cli_fail(int code, const char *format, ...);
+
+/* Print "program: warning: message" to stderr and go on. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 1, 2)))
+#endif
+void cli_warn(const char *format, ...);
+
+/* calloc() that cannot fail: it ends in cli_fail(CLI_IO). */
+void *cli_alloc(size_t count, size_t size);
+
+/* Parse a whole decimal number in [min, max] or cli_fail(CLI_USAGE) naming the
+ * option, the text and the range. text may be NULL (value missing). */
+int64_t cli_number(
+        const char *option, const char *text, int64_t min, int64_t max);
+
+/* Parse "AxB" (sep 'x') or "A:B" (sep ':'), both in [min, max], likewise. */
+void cli_pair(const char *option, const char *text, char sep, int64_t min,
+        int64_t max, int64_t *a, int64_t *b);
+
+/* text itself, or cli_fail(CLI_USAGE) if it is missing, empty, or looks like
+ * another option. */
+const char *cli_text(const char *option, const char *text);
+
+/* Index of text in the NULL-terminated names, or cli_fail(CLI_USAGE) that
+ * lists them. */
+int cli_choice(const char *option, const char *text, const char *const *names);
+
+/* Read a whole file into malloc'd, 8-byte aligned memory with a zero byte
+ * after the end; cli_fail(CLI_IO) if it cannot be read. "-" is stdin. */
+void *cli_read(const char *path, size_t *size);
+
+/* A file being written. */
+typedef struct {
+    FILE *file;
+    const char *path;
+    char *temporary;
+    char *target; /* where path leads, if it is a link */
+} cli_out_t;
+
+/* Open a temporary file beside path; cli_fail(CLI_IO) if that is impossible. */
+void cli_out_open(cli_out_t *out, const char *path);
+
+/* Flush, check every error so far, rename to the final name. On any failure the
+ * temporary file is removed and cli_fail(CLI_IO) names path and reason. */
+void cli_out_commit(cli_out_t *out);
+
+/* Progress on a terminal: "label [####....] 42 % 0:31 left". Silent when
+ * stderr is not a terminal or quiet is set. Redraws at most ten times a
+ * second; done == total finishes the line. */
+void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet);
+
+/* Seconds of a clock that only goes forward. */
+double cli_seconds(void);
+
+/* True once SIGINT or SIGTERM arrived: stop soon and exit through cli_fail. */
+bool cli_interrupted(void);
+
+#endif

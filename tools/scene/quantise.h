@@ -1,0 +1,50 @@
+/* quantise.h - the scene on its integer grid, and what that loses */
+/* SPDX-License-Identifier: MIT */
+
+/* The box of all faces is scaled so that its longest side spans GRID_LOW to
+ * GRID_HIGH; the other sides begin at GRID_LOW. The margin leaves room for
+ * points that are pushed off a surface. Everything after this is integers. */
+
+#ifndef QUANTISE_H
+#define QUANTISE_H
+
+#include "soft.h"
+#include "world.h"
+
+#define GRID_LOW  8
+#define GRID_HIGH 32759
+
+typedef struct {
+    uint32_t vertex[3];
+    uint32_t material; /* of the world */
+} grid_face_t;
+
+typedef struct {
+    uint16_t (*vertices)[3]; /* no two equal */
+    grid_face_t *faces;      /* none of zero area */
+    uint32_t vertex_count;
+    uint32_t face_count;
+    uint16_t low[3], high[3]; /* box of the faces; low > high if none */
+    size_t flat_count;        /* faces dropped: no area as written */
+    size_t tiny_count;        /* faces dropped: no area on the grid */
+    size_t merged_count;      /* vertices merged with another */
+    soft_t origin[3];         /* world = origin + (grid - GRID_LOW) unit */
+    soft_t unit;
+} grid_t;
+
+/* Put a world on the grid.
+ *
+ *   grid   -  out; grid_free() it
+ *   world  -  the scene
+ *
+ * Error: half a unit a coordinate.
+ * Fails: exit 2 if more than 65,535 faces remain.
+ */
+void quantise(grid_t *grid, const world_t *world);
+
+/* The exact normal e1 x e2 of a face; each component is below 2^30 in size. */
+void grid_normal(const grid_t *grid, const grid_face_t *face, int64_t n[3]);
+
+void grid_free(grid_t *grid);
+
+#endif
