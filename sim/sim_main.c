@@ -1,0 +1,161 @@
+/* sim_main.c - qlux-sim: render a scene on a PC to a picture and exact sums */
+/* SPDX-License-Identifier: MIT */
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "qlux.h"
+#include "sim_options.h"
+#include "sim_render.h"
+
+#if QL_CFG_PRECISION == 0
+#define PROGRAM   "qlux-sim-draft"
+#define PRECISION "draft"
+#else
+#define PROGRAM   "qlux-sim"
+#define PRECISION "fine"
+#endif
+
+/* Where in a blob a status was found, as far as it tells. */
+static long blob_offset(ql_status_t status)
+{
+    switch (status) {
+    case QL_ERR_MAGIC:
+        return offsetof(ql_blob_header_t, magic);
+    case QL_ERR_VERSION:
+        return offsetof(ql_blob_header_t, version);
+    case QL_ERR_TRUNCATED:
+        return offsetof(ql_blob_header_t, size_bytes);
+    case QL_ERR_CHECKSUM:
+        return offsetof(ql_blob_header_t, crc32);
+    case QL_ERR_FEATURE:
+        return offsetof(ql_blob_header_t, features);
+    case QL_ERR_CAPACITY:
+        return offsetof(ql_blob_header_t, depth);
+    default:
+        return -1;
+    }
+}
+
+/* The blob is returned to be freed after use. */
+static void *open_scene(ql_scene_t *scene, const char *path)
+{
+    size_t size;
+    void *blob = cli_read(path, &size);
+    const ql_status_t status = ql_blob_open(scene, blob, size);
+    const long offset = blob_offset(status);
+    char where[32] = "";
+
+    if (offset >= 0) {
+        snprintf(where, sizeof where, "byte %ld: ", offset);
+    }
+    if (status == QL_ERR_FEATURE) {
+        cli_fail(CLI_INPUT, "%s: %s%s: %s", path, where, ql_status_text(status),
+                ql_blob_missing(blob));
+    }
+    if (status != QL_OK) {
+        cli_fail(CLI_INPUT, "%s: %s%s", path, where, ql_status_text(status));
+    }
+    return blob;
+}
+
+/* What parts must have in common with this one. */
+static void describe(sums_t *sums, const ql_render_t *render)
+{
+    const ql_settings_t *s = &render->settings;
+    const ql_blob_header_t *h = render->scene->header;
+    uint32_t *f = sums->field;
+
+    f[SUMS_WIDTH] = s->width;
+    f[SUMS_HEIGHT] = s->height;
+    f[SUMS_BLOB_CRC] = QL_LE32(h->crc32);
+    f[SUMS_SEED] = s->seed;
+    f[SUMS_RADIANCE_EXP] =
+            (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->radiance_exp));
+    f[SUMS_EXPOSURE_Q8] =
+            (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->exposure_q8));
+    f[SUMS_POS_BITS] = QL_POS_BITS;
+    f[SUMS_DIR_BITS] = QL_DIR_BITS;
+    f[SUMS_BOUNCES] = s->bounces;
+    f[SUMS_SAMPLER] = s->sampler;
+    f[SUMS_DIRECT] = s->direct;
+    f[SUMS_INDIRECT] = s->indirect;
+}
+
+static void print_stats(const sim_stats_t *s)
+{
+    const double rays = (double)s->closest_rays + (double)s->shadow_rays;
+
+    printf("paths: %" PRIu64 "\n", s->paths);
+    printf("closest-rays: %" PRIu64 "\n", s->closest_rays);
+    printf("shadow-rays: %" PRIu64 "\n", s->shadow_rays);
+    printf("rays-per-path: %.3f\n",
+            s->paths != 0 ? rays / (double)s->paths : 0);
+    printf("saturated: %" PRIu64 "\n", s->saturated);
+    printf("seconds: %.3f\n", s->seconds);
+    printf("precision: " PRECISION "\n");
+}
+
+/* Everything after the options. Outputs are opened before the work, so a bad
+ * path fails at once. */
+static void run(sim_options_t *o, const ql_render_t *render)
+{
+    const bool has_picture = o->picture != NULL, has_save = o->save != NULL;
+    sums_range_t range, clash;
+    cli_out_t picture, save;
+    sim_stats_t stats;
+    sums_t sums;
+
+    sim_options_rows(o, render->settings.height);
+    describe(&sums, render);
+    sums_new(&sums);
+    range.row_first = o->rows.first;
+    range.row_end = o->rows.end;
+    range.sample_first = o->samples.first;
+    range.sample_end = o->samples.end;
+    (void)sums_claim(&sums, &range, &clash);
+    if (has_picture) {
+        cli_out_open(&picture, o->picture);
+    }
+    if (has_save) {
+        cli_out_open(&save, o->save);
+    }
+    if (!sim_render(&sums, render, &range, o->threads, o->quiet, &stats)) {
+        cli_fail(CLI_IO, "interrupted; nothing was written");
+    }
+    if (has_picture) {
+        develop_write(&sums, o->kind, o->format, &picture);
+    }
+    if (has_save) {
+        sums_write(&sums, &save);
+        cli_out_commit(&save);
+    }
+    if (has_picture) {
+        cli_out_commit(&picture);
+    }
+    if (o->stats) {
+        print_stats(&stats);
+    }
+    sums_free(&sums);
+}
+
+int main(int argc, char **argv)
+{
+    sim_options_t options;
+    ql_render_t render;
+    ql_scene_t scene;
+    ql_status_t status;
+    void *blob;
+
+    cli_begin(PROGRAM);
+    sim_options_parse(&options, argc, argv);
+    blob = open_scene(&scene, options.scene);
+    status = ql_render_init(&render, &scene, &options.settings);
+    if (status != QL_OK) {
+        cli_fail(CLI_USAGE, "%s", ql_status_text(status));
+    }
+    run(&options, &render);
+    free(blob);
+    return CLI_DONE;
+}
