@@ -1,0 +1,121 @@
+# boards.mk - the firmware of a board: build it, run it in its emulator, size it
+#
+# SIZE, SPP, SEED, BOUNCES, SAMPLER, INTERLACE choose the picture; PRECISION is
+# draft or fine. SCENE is a name: the main Makefile makes build/SCENE.qlb and
+# build/SCENE.h of it.
+
+BOARDS := $(notdir $(patsubst %/,%,$(wildcard hal/boards/*/)))
+PRECISION ?= draft
+
+ifneq ($(BOARD),)
+ifeq ($(filter $(BOARD),$(BOARDS)),)
+$(error BOARD=$(BOARD): use one of $(BOARDS))
+endif
+include hal/boards/$(BOARD)/board.mk
+OPT ?= $(or $(BOARD_OPT),-O2)
+SIZE ?= $(BOARD_SIZE)
+SPP ?= $(BOARD_SPP)
+SEED ?= 0
+BOUNCES ?= 4
+SAMPLER ?= sobol
+INTERLACE ?= 1
+board_choice := --size $(SIZE) --spp $(SPP) --seed $(SEED) \
+    --bounces $(BOUNCES) --sampler $(SAMPLER)
+
+# EMULATED=1 leaves the emulator when done; a real board would hang on that.
+EMULATED ?= 0
+BOARD_MAIN ?= hal/ql_main.c
+board_name := build/$(BOARD)/$(SCENE)$(if \
+    $(filter 1,$(EMULATED)),-emulated)$(VARIANT)
+board_src := $(or $(FIRMWARE_SRC),$(wildcard firmware/*.c firmware/*/*.c)) \
+    $(filter-out hal/ql_main.c,$(wildcard hal/*.c)) $(BOARD_MAIN) \
+    hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
+board_obj := $(addprefix $(board_name)/,$(addsuffix .o,$(board_src)))
+board_ci := $(patsubst %.c.o,%.c.ci,$(filter %.c.o,$(board_obj)))
+
+board_cflags := $(BOARD_CPU) $(OPT) -std=c99 -pedantic -ffreestanding \
+    $(WARN) -Werror -ffunction-sections -fdata-sections -fno-common -g \
+    -fno-asynchronous-unwind-tables -fcallgraph-info=su \
+    -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
+    -DQL_CFG_FEATURES_HEADER='"build/$(SCENE).h"' \
+    -DQL_CFG_PRECISION=$(if $(filter fine,$(PRECISION)),1,0) \
+    -DQL_PORT_EMULATED=$(EMULATED) \
+    -DQL_APP_WIDTH=$(word 1,$(subst x, ,$(SIZE))) \
+    -DQL_APP_HEIGHT=$(word 2,$(subst x, ,$(SIZE))) \
+    -DQL_APP_SPP=$(SPP) -DQL_APP_SEED=$(SEED)u -DQL_APP_BOUNCES=$(BOUNCES) \
+    -DQL_APP_SAMPLER=QL_SAMPLER_$(if $(filter random,$(SAMPLER)),RANDOM,SOBOL) \
+    -DQL_APP_INTERLACE=$(INTERLACE) $(CFLAGS_BOARD)
+
+firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
+
+# A change of any choice builds again: the flags are a file others depend on.
+$(board_name)/flags: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(subst ','\'',$(board_cflags))' | cmp -s - $@ || \
+	    printf '%s\n' '$(subst ','\'',$(board_cflags))' > $@
+
+$(board_name)/%.c.o: %.c $(board_name)/flags build/$(SCENE).h
+	@mkdir -p $(@D)
+	$(BOARD_CROSS)gcc $(board_cflags) -MMD -MP -c $< -o $@
+
+$(board_name)/%.S.o: %.S $(board_name)/flags build/$(SCENE).qlb
+	@mkdir -p $(@D)
+	$(BOARD_CROSS)gcc $(BOARD_CPU) -c $< -o $@ \
+	    -DQL_BLOB_FILE='"build/$(SCENE).qlb"'
+
+$(board_name).elf: $(board_obj) linker/sections.ld linker/$(BOARD_MCU).ld
+	$(BOARD_CROSS)gcc $(BOARD_CPU) -nostdlib -Wl,--gc-sections -Llinker \
+	    -Wl,-T,$(BOARD_MCU).ld -Wl,--defsym=ql_ld_stack_bytes=$(BOARD_STACK) \
+	    -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments \
+	    $(board_obj) -lgcc -o $@
+
+$(board_name).hex $(board_name).bin: $(board_name).elf
+	$(BOARD_CROSS)objcopy -O $(if $(filter %.hex,$@),ihex,binary) $< $@
+
+flash: firmware ## Load SCENE onto a real BOARD
+	elf=$(board_name).elf bin=$(board_name).bin hex=$(board_name).hex; \
+	    $(BOARD_FLASH)
+
+run-emulated: $(board_name).elf build/qlux-recv
+	tools/run_board.sh $(if $(QUIET),--quiet) $< build/$(SCENE)-$(BOARD).ppm \
+	    $(BOARD_QEMU)
+
+# What the simulator makes of the same choice; to compare with the board's.
+board_sim := build/qlux-sim$(if $(filter draft,$(PRECISION)),-draft)
+build/$(SCENE)-$(BOARD)-sim.ppm: build/$(SCENE).qlb $(board_sim) FORCE
+	$(board_sim) $< -o $@ --quiet $(board_choice)
+
+size-board: $(board_name).elf
+	@$(BOARD_CROSS)size -A $< | awk -v name='$(BOARD) $(SCENE)' \
+	    '/^\.(text|rodata|data) / { flash += $$2 } \
+	    /^\.(data|bss) / { ram += $$2 } \
+	    END { print name " flash: " flash; print name " ram: " ram }'
+	@stack=$$(tools/stack_report.sh $< $(BOARD_CROSS)objdump \
+	    $(board_ci)) && echo "$(BOARD) $(SCENE) stack: $$stack"
+
+test-stack: $(board_name).elf build/qlux-recv
+	tests/boards/test_stack.sh $< $$(tools/stack_report.sh $< \
+	    $(BOARD_CROSS)objdump $(board_ci)) $(BOARD_CROSS)nm $(BOARD_QEMU)
+
+-include $(board_obj:.o=.d)
+else
+firmware flash:
+	@echo "$@: needs BOARD=, one of $(BOARDS)" >&2; exit 1
+endif
+
+.PHONY: firmware flash run-board run-emulated size size-board test-boards \
+    test-stack test-template FORCE
+run-board: ## Render SCENE on an emulated BOARD
+	@$(MAKE) --no-print-directory run-emulated EMULATED=1
+
+size: ## Flash, RAM and stack of SCENE on BOARD, or on every board
+	@for board in $(or $(BOARD),$(BOARDS)); do \
+	    $(MAKE) -s --no-print-directory size-board BOARD=$$board || exit; \
+	done
+
+test-template: # A port that does nothing must compile
+	$(CC) -std=c99 -pedantic -ffreestanding $(WARN) -Werror -Ifirmware -Ihal \
+	    -Ihal/template -fsyntax-only hal/template/board.c hal/ql_*.c
+
+test-boards: $(programs) ## Every board's picture is the simulator's
+	tests/boards/test_boards.sh $(BOARDS)

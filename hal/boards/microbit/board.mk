@@ -1,0 +1,12 @@
+# board.mk - BBC micro:bit: Cortex-M0, 256 KB flash, 16 KB RAM
+BOARD_CROSS := arm-none-eabi-
+BOARD_CPU := -mcpu=cortex-m0 -mthumb
+BOARD_CORE := cortex-m0
+BOARD_OPT := -Os
+BOARD_MCU := nrf51822
+BOARD_SRC := hal/cpu/ql_cortexm.c
+BOARD_STACK := 2048
+BOARD_SIZE := 64x64
+BOARD_SPP := 4
+BOARD_QEMU := qemu-system-arm -M microbit
+BOARD_FLASH := pyocd flash -t nrf51 $$elf

@@ -1,0 +1,14 @@
+/* ql_blob_link.c - the scene of a board whose blob is linked into its flash */
+/* SPDX-License-Identifier: MIT */
+
+#include "ql_hal.h"
+
+/* ql_blob_data.S; the last byte is the one before ql_blob_end. */
+extern const uint8_t ql_blob_begin[];
+extern const uint8_t ql_blob_end[];
+
+void ql_hal_scene_blob(const void **blob, size_t *size)
+{
+    *blob = ql_blob_begin;
+    *size = (size_t)(ql_blob_end - ql_blob_begin);
+}

@@ -1,0 +1,16 @@
+# board.mk - what make needs to know of a board; copy this folder to begin a port
+# Prefix of the compiler's name, and its options for this CPU.
+BOARD_CROSS := arm-none-eabi-
+BOARD_CPU := -mcpu=cortex-m0 -mthumb
+# linker/<this>.ld has the memory.
+BOARD_MCU := template
+# Sources beside board.c and those every board has.
+BOARD_SRC := hal/cpu/ql_cortexm.c
+# Bytes of stack; make size prints what is needed.
+BOARD_STACK := 2048
+# The picture unless make is told another: pixels, samples a pixel.
+BOARD_SIZE := 64x64
+BOARD_SPP := 4
+# The emulator, and how to load a real board ($elf, $hex, $bin).
+BOARD_QEMU := false
+BOARD_FLASH := false
