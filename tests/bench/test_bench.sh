@@ -1,0 +1,59 @@
+#!/bin/sh
+# test_bench.sh - instructions and bytes stay within their budgets
+# SPDX-License-Identifier: MIT
+#
+# usage: tests/bench/test_bench.sh
+#
+# Counts on emulated boards are the same on every run, so they can fail a test;
+# times on a PC cannot and are not looked at, but that both tracers agree is.
+#
+# Example: tests/bench/test_bench.sh
+
+set -u
+dir=$(mktemp -d) || exit 3
+trap 'rm -rf "$dir"' EXIT
+make=${MAKE:-make}
+failed=0
+
+# Compare rows "NAME: N" of $2 with the budget $1; a missing row fails.
+compare()
+{
+    awk -v suite="$3" '
+        /^#/ { next }
+        FNR == NR { split($0, a, ": "); got[a[1]] = a[2]; next }
+        {
+            split($0, a, ": ")
+            claim = a[1]
+            gsub(/ /, "_", claim)
+            n = got[a[1]]
+            ok = n != "" && n + 0 <= a[2] + 0
+            if (!ok) bad = 1
+            printf "%s %s_within_budget %s %s of %s\n", suite, claim,
+                ok ? "ok" : "FAIL", n == "" ? "no row" : n, a[2]
+        }
+        END { exit bad }' "$2" "$1"
+}
+
+$make -s --no-print-directory bench-boards > "$dir/bench" 2> "$dir/log" || {
+    echo "bench/boards runs_on_every_board FAIL" "$(tail -1 "$dir/log")"
+    failed=1
+}
+compare tests/budgets/instructions.txt "$dir/bench" bench/boards || failed=1
+
+$make -s --no-print-directory size > "$dir/size" 2> "$dir/log" || {
+    echo "bench/size measures_every_board FAIL" "$(tail -1 "$dir/log")"
+    failed=1
+}
+compare tests/budgets/sizes.txt "$dir/size" bench/size || failed=1
+
+if $make -s --no-print-directory bench-pc > "$dir/pc" 2>&1; then
+    echo "bench/pc both_tracers_hit_the_same_triangles ok"
+else
+    echo "bench/pc both_tracers_hit_the_same_triangles FAIL $(tail -1 "$dir/pc")"
+    failed=1
+fi
+if ! grep -q 'pc fine closest-ratio: [0-9.]*$' "$dir/pc"; then
+    echo "bench/pc prints_its_ratios FAIL"
+    failed=1
+fi
+exit $failed

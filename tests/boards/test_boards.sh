@@ -1,0 +1,133 @@
+#!/bin/sh
+# test_boards.sh - every emulated board renders the simulator's picture
+# SPDX-License-Identifier: MIT
+
+if [ "${1-}" = --help ]; then
+    echo 'usage: tests/boards/test_boards.sh [BOARD...]'
+    echo 'Example: tests/boards/test_boards.sh microbit sifive_e'
+    exit 0
+fi
+if [ $# -eq 0 ]; then
+    cd hal/boards && set -- * && cd ../.. || exit 3
+fi
+
+make=${MAKE:-make}
+failed=0
+mkdir -p build/fail
+log=$(mktemp) || exit 3
+trap 'rm -f "$log"' EXIT
+
+# claim BOARD CLAIM COMMAND...: run it, say one line; its output on a failure.
+claim() {
+    board=$1
+    name=$2
+    shift 2
+    note=
+    if "$@" >"$log" 2>&1; then
+        printf 'boards/%-14s %-42s ok   %s\n' "$board" "$name" "$note"
+    else
+        printf 'boards/%-14s %-42s FAIL\n' "$board" "$name"
+        grep -v '^[a-z0-9-]*-gcc ' "$log" | tail -12 >&2
+        echo "    again: $*" >&2
+        failed=1
+    fi
+}
+
+# choose BOARD [VARIABLE=value...] TARGET: make it.
+choose() {
+    on=$1
+    shift
+    $make --no-print-directory BOARD="$on" "$@"
+}
+
+# same BOARD [VARIABLE=value...]: render there and here, compare.
+same() {
+    picture=build/$SCENE-$1
+    rm -f "$picture.ppm" "$picture-sim.ppm"
+    choose "$@" run-board QUIET=1 && choose "$@" "$picture-sim.ppm" || return
+    instructions=$(sed -n "s/^instructions: //p" "$log")
+    paths=$(sed -n "s/^paths: //p" "$log")
+    note="$((instructions / paths)) instructions a path"
+    cmp "$picture.ppm" "$picture-sim.ppm" && return
+    cp "$picture.ppm" "build/fail/$SCENE-${1}_actual.ppm"
+    return 1
+}
+
+# panel BOARD [VARIABLE=value...]: the real board's firmware, and what it shows.
+panel() {
+    grey=build/$SCENE-$1-gray4.ppm
+    choose "$@" firmware &&
+        build/qlux-sim-draft "build/$SCENE.qlb" -o "$grey" --quiet \
+            --format gray4 --size 128x64 --spp 8 &&
+        tests/boards/test_panel.sh "build/$1/$SCENE.elf" "$grey"
+}
+
+# stops BOARD STATUS FAULT: how fault_main.c ends, and that it says so.
+stops() {
+    fault=build/$1/fault-$3
+    choose "$1" EMULATED=1 board_name="$fault" "$fault.elf" \
+        BOARD_MAIN=tests/boards/fault_main.c CFLAGS_BOARD=-DTEST_FAULT="$3" ||
+        return
+    # shellcheck disable=SC2046 # a command and its arguments
+    tools/run_board.sh --quiet "$fault.elf" "build/$1/fault.ppm" \
+        $(emulator "$1")
+    status=$?
+    note="status $status"
+    [ "$status" -eq "$2" ] && [ ! -e "build/$1/fault.ppm" ] || return
+    case $status in
+    100) grep -q "^board: panic" "$log" ;;
+    101) grep -q "^board: fault" "$log" ;;
+    esac
+}
+
+emulator() {
+    sed -n "s/^BOARD_QEMU := //p" "hal/boards/$1/board.mk"
+}
+
+# Ctrl-C on the serial port, a moment after the start of a long picture.
+ctrl_c() {
+    choose "$1" SPP=256 EMULATED=1 "build/$1/$SCENE-emulated.elf" || return
+    # shellcheck disable=SC2046
+    { sleep 1; printf "\003"; } | timeout 60 $(emulator "$1") \
+        -display none -monitor none -serial stdio -icount shift=0 \
+        -semihosting-config enable=on,target=native \
+        -kernel "build/$1/$SCENE-emulated.elf" >"build/$1/stopped.stream"
+    ! build/qlux-recv "build/$1/stopped.stream" -o "build/$1/stopped.ppm" \
+        --quiet && grep -q "status -12: stopped by the user" "$log"
+}
+
+# stack BOARD: what was used stays within what was proved.
+stack() {
+    choose "$1" test-stack || return
+    used=$(sed -n "s/^stack-used: //p" "$log")
+    note="$used bytes used"
+}
+
+SCENE=${SCENE:-cornell}
+export SCENE
+claim template port_that_does_nothing_compiles "$make" test-template
+for board; do
+    claim "$board" draft_picture_is_the_simulators same "$board"
+    claim "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
+    claim "$board" interlaced_picture_is_the_same \
+        same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SAMPLER=random SEED=9
+    claim "$board" stack_stays_within_its_proved_bound stack "$board"
+    claim "$board" ctrl_c_stops_the_picture ctrl_c "$board"
+    claim "$board" panic_is_reported stops "$board" 100 0
+    claim "$board" undefined_instruction_is_reported stops "$board" 101 2
+    claim "$board" status_is_what_the_emulator_exits_with stops "$board" 12 3
+done
+# QEMU lets the other two write outside their memory.
+for board; do
+    case $board in
+    microbit | sifive_e)
+        claim "$board" stack_overflow_is_reported stops "$board" 101 1 ;;
+    esac
+done
+for board; do
+    [ "$board" = lm3s6965evb ] || continue
+    claim "$board" panel_shows_the_simulators_greys panel "$board"
+    claim "$board" interlaced_panel_ends_with_the_same \
+        panel "$board" INTERLACE=16
+done
+exit $failed

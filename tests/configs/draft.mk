@@ -1,0 +1,1 @@
+config_draft := -DQL_CFG_PRECISION=0

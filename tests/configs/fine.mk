@@ -1,0 +1,1 @@
+config_fine := -DQL_CFG_PRECISION=1

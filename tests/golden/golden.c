@@ -1,0 +1,425 @@
+/* golden.c - checksums of pictures and parts: nothing changed by accident */
+/* SPDX-License-Identifier: MIT */
+
+/* Usage: golden print|check|update BLOB16 BLOB8 CHECKSUMS
+ *
+ * Every line of CHECKSUMS is "name crc32"; names begin with the precision, so
+ * one file serves both. check fails for a difference and for a missing line,
+ * and for a line of this precision that no longer means anything. update
+ * rewrites the lines of this precision and keeps the others.
+ *
+ * Plain C99 and stdio: it runs wherever the core does. Numbers go into a
+ * checksum as bytes of fixed order. */
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/ql_crc.h"
+#include "math/ql_lut.h"
+#include "math/ql_trig.h"
+#include "qlux.h"
+#include "render/ql_path.h"
+#include "sample/ql_hash.h"
+#include "sample/ql_sampler.h"
+#include "sample/ql_sobol.h"
+#include "sample/ql_warp.h"
+
+#if QL_CFG_PRECISION == 0
+#define PRECISION "draft"
+#else
+#define PRECISION "fine"
+#endif
+
+enum { SIZE = 32, ENTRIES_MAX = 256, NAME_MAX_BYTES = 64 };
+
+typedef struct {
+    char name[NAME_MAX_BYTES];
+    uint32_t crc;
+} entry_t;
+
+static entry_t made[ENTRIES_MAX]; /* what this build makes */
+static unsigned made_count;
+
+static void add(const char *name, uint32_t crc)
+{
+    if (made_count == ENTRIES_MAX) {
+        (void)fprintf(stderr, "golden: more than %d entries\n", ENTRIES_MAX);
+        exit(2);
+    }
+    (void)snprintf(
+            made[made_count].name, NAME_MAX_BYTES, PRECISION "/%s", name);
+    made[made_count++].crc = crc;
+}
+
+static uint32_t crc_u32(uint32_t crc, uint32_t value)
+{
+    const uint8_t bytes[4] = {(uint8_t)value, (uint8_t)(value >> 8),
+            (uint8_t)(value >> 16), (uint8_t)(value >> 24)};
+
+    return ql_crc32(crc, bytes, sizeof bytes);
+}
+
+static uint32_t crc_vec(uint32_t crc, ql_vec3_t v)
+{
+    crc = crc_u32(crc, (uint32_t)v.x);
+    crc = crc_u32(crc, (uint32_t)v.y);
+    return crc_u32(crc, (uint32_t)v.z);
+}
+
+/* ---- Parts ------------------------------------------------------------- */
+
+static uint32_t crc_words(const void *words, size_t count, size_t size)
+{
+    uint32_t crc = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        crc = crc_u32(crc, size == 2 ? ((const uint16_t *)words)[i]
+                                     : ((const uint32_t *)words)[i]);
+    }
+    return crc;
+}
+
+static void add_tables(void)
+{
+    add("table_sin", crc_words(ql_lut_sin, QL_SIN_CELLS + 1, 4));
+    add("table_rsqrt", crc_words(ql_lut_rsqrt, QL_RSQRT_CELLS, 2));
+    add("table_recip", crc_words(ql_lut_recip, QL_RECIP_CELLS, 2));
+    add("table_srgb",
+            crc_words(ql_lut_srgb, QL_SRGB_OCTAVES * QL_SRGB_STEPS + 1, 2));
+}
+
+/* Numbers spread over all 32 bits. */
+static uint32_t spread(uint32_t i)
+{
+    return ql_hash32(i + 1);
+}
+
+static void add_numbers(void)
+{
+    uint32_t hash = 0, owen = 0, sobol = 0, sine = 0, root = 0, recip = 0;
+
+    for (uint32_t i = 0; i < 4096; i++) {
+        int32_t s, c;
+
+        hash = crc_u32(hash, ql_hash32(i * 2654435761u));
+        owen = crc_u32(owen, ql_owen_reversed(i, spread(i)));
+        sobol = crc_u32(sobol, ql_sobol_1_reversed(ql_reverse32(i)));
+        ql_sincos(spread(i), &s, &c);
+        sine = crc_u32(crc_u32(sine, (uint32_t)s), (uint32_t)c);
+        root = crc_u32(root, ql_sqrt_uq32(spread(i) >> i % 32));
+        recip = crc_u32(recip, ql_recip_m(spread(i) | 0x80000000u));
+    }
+    add("hash32", hash);
+    add("owen", owen);
+    add("sobol_1", sobol);
+    add("sincos", sine);
+    add("sqrt", root);
+    add("recip", recip);
+}
+
+static void add_samplers(void)
+{
+    static const char *const names[2] = {"sampler_random", "sampler_sobol"};
+
+    for (uint8_t kind = 0; kind < 2; kind++) {
+        ql_sampler_t sampler;
+        uint32_t crc = 0;
+
+        ql_sampler_begin(&sampler, kind, 0x12345678u, 3, 5);
+        for (uint32_t i = 0; i < 1024; i++) {
+            ql_uniform2_t u;
+
+            ql_sampler_start(&sampler, i);
+            u = ql_sampler_2d(&sampler, i % 17);
+            crc = crc_u32(crc_u32(crc, u.u1), u.u2);
+            crc = crc_u32(crc, ql_sampler_1d(&sampler, i % 19));
+        }
+        add(names[kind], crc);
+    }
+}
+
+static void add_warps(void)
+{
+    const ql_vec3_t n = {
+            1 << 28, -(1 << 28), 379625062}; /* (1, -1, sqrt 2)/2 */
+    uint32_t sphere = 0, cosine = 0, triangle = 0, rounded = 0;
+
+    for (uint32_t i = 0; i < 4096; i++) {
+        const uint32_t u1 = spread(i), u2 = spread(~i);
+        uint32_t b1, b2;
+
+        sphere = crc_vec(sphere, ql_warp_sphere(u1, u2));
+        cosine = crc_vec(cosine, ql_warp_cosine_hemisphere(n, u1, u2));
+        ql_warp_triangle(u1, u2, &b1, &b2);
+        triangle = crc_u32(crc_u32(triangle, b1), b2);
+        rounded = crc_vec(rounded, ql_dir_round(ql_warp_sphere(u1, u2)));
+    }
+    add("warp_sphere", sphere);
+    add("warp_cosine", cosine);
+    add("warp_triangle", triangle);
+    add("dir_round", rounded);
+}
+
+static void add_tonemap(void)
+{
+    uint32_t crc[QL_FORMAT_COUNT] = {0, 0, 0, 0, 0};
+
+    for (uint32_t i = 0; i < 2048; i++) {
+        const uint32_t linear[3] = {spread(i) >> i % 20, i * 37, 70000 - i};
+
+        for (int f = 0; f < QL_FORMAT_COUNT; f++) {
+            uint8_t pixels[4] = {0, 0, 0, 0};
+
+            ql_tonemap_pixel(pixels, (ql_format_t)f, 0, (uint16_t)i, linear);
+            crc[f] = ql_crc32(crc[f], pixels, sizeof pixels);
+        }
+    }
+    add("tonemap_rgb888", crc[QL_FORMAT_RGB888]);
+    add("tonemap_rgb565_le", crc[QL_FORMAT_RGB565_LE]);
+    add("tonemap_rgb565_be", crc[QL_FORMAT_RGB565_BE]);
+    add("tonemap_gray8", crc[QL_FORMAT_GRAY8]);
+    add("tonemap_gray4", crc[QL_FORMAT_GRAY4]);
+}
+
+/* ---- Pictures ---------------------------------------------------------- */
+
+static ql_render_t begin(const ql_scene_t *scene, const ql_settings_t *settings)
+{
+    ql_render_t render;
+
+    if (ql_render_init(&render, scene, settings) != QL_OK) {
+        (void)fprintf(stderr, "golden: the core refuses the settings\n");
+        exit(2);
+    }
+    return render;
+}
+
+static void add_lines(
+        const ql_scene_t *scene, const char *name, ql_settings_t settings)
+{
+    static const char *const formats[QL_FORMAT_COUNT] = {
+            "rgb888", "rgb565_le", "rgb565_be", "gray8", "gray4"};
+    static uint8_t lines[QL_FORMAT_COUNT][3 * SIZE];
+    ql_render_t render = begin(scene, &settings);
+    ql_output_t outputs[QL_FORMAT_COUNT];
+    uint32_t crc[QL_FORMAT_COUNT] = {0, 0, 0, 0, 0};
+
+    for (int f = 0; f < QL_FORMAT_COUNT; f++) {
+        outputs[f].format = (ql_format_t)f;
+        outputs[f].pixels = lines[f];
+    }
+    for (uint16_t y = 0; y < settings.height; y++) {
+        memset(lines, 0, sizeof lines);
+        ql_render_line(&render, y, outputs, QL_FORMAT_COUNT);
+        for (int f = 0; f < QL_FORMAT_COUNT; f++) {
+            crc[f] = ql_crc32(crc[f], lines[f],
+                    QL_LINE_BYTES((size_t)settings.width, (ql_format_t)f));
+        }
+    }
+    for (int f = 0; f < QL_FORMAT_COUNT; f++) {
+        char full[NAME_MAX_BYTES];
+
+        (void)snprintf(full, sizeof full, "%s_%s", name, formats[f]);
+        add(full, crc[f]);
+    }
+}
+
+/* The sums themselves, and what was counted. */
+static void add_sums(
+        const ql_scene_t *scene, const char *name, ql_settings_t settings)
+{
+    ql_render_t render = begin(scene, &settings);
+    char full[NAME_MAX_BYTES];
+    uint32_t crc = 0;
+
+    for (uint16_t y = 0; y < settings.height; y++) {
+        for (uint16_t x = 0; x < settings.width; x++) {
+            ql_sum_t sum = {{0, 0, 0}};
+
+            ql_render_pixel(&render, x, y, 0, settings.spp, &sum);
+            for (int k = 0; k < 3; k++) {
+                crc = crc_u32(crc, (uint32_t)sum.rgb[k]);
+                crc = crc_u32(crc, (uint32_t)(sum.rgb[k] >> 32));
+            }
+        }
+    }
+    (void)snprintf(full, sizeof full, "%s_sums", name);
+    add(full, crc);
+    crc = crc_u32(0, render.diag.paths);
+    crc = crc_u32(crc, render.diag.closest_rays);
+    crc = crc_u32(crc, render.diag.shadow_rays);
+    crc = crc_u32(crc, render.diag.saturated);
+    (void)snprintf(full, sizeof full, "%s_counts", name);
+    add(full, crc);
+}
+
+/* Node widths differ in rays of equal results: the pictures are the same. */
+static void add_pictures(const ql_scene_t scenes[2])
+{
+    static const char *const names[4] = {"cornell_random", "cornell_sobol",
+            "cornell_random_node8", "cornell_sobol_node8"};
+
+    for (int i = 0; i < 4; i++) {
+        ql_settings_t settings = QL_SETTINGS_DEFAULT;
+
+        settings.width = settings.height = SIZE;
+        settings.spp = 4;
+        settings.sampler = (uint8_t)(i % 2);
+        add_lines(scenes + i / 2, names[i], settings);
+        settings.width = 17;
+        settings.height = 11;
+        settings.seed = 0xdeadbeefu;
+        settings.bounces = 16;
+        add_sums(scenes + i / 2, names[i], settings);
+    }
+}
+
+/* ---- The file ---------------------------------------------------------- */
+
+static entry_t kept[ENTRIES_MAX];
+static unsigned kept_count;
+
+/* A file that is not there holds nothing. */
+static void read_checksums(const char *path)
+{
+    FILE *file = fopen(path, "r");
+    char name[NAME_MAX_BYTES];
+    unsigned long crc;
+
+    if (file == NULL) {
+        if (errno != ENOENT) {
+            perror(path);
+            exit(3);
+        }
+        return;
+    }
+    while (kept_count < ENTRIES_MAX &&
+            fscanf(file, "%63s %lx", name, &crc) == 2) {
+        memcpy(kept[kept_count].name, name, sizeof name);
+        kept[kept_count++].crc = (uint32_t)crc;
+    }
+    if (!feof(file)) {
+        (void)fprintf(stderr, "golden: %s: line %u is not \"name crc32\"\n",
+                path, kept_count + 1);
+        exit(2);
+    }
+    (void)fclose(file);
+}
+
+static const entry_t *find(
+        const entry_t *entries, unsigned count, const char *name)
+{
+    for (unsigned i = 0; i < count; i++) {
+        if (strcmp(entries[i].name, name) == 0) {
+            return entries + i;
+        }
+    }
+    return NULL;
+}
+
+static int check(void)
+{
+    unsigned failures = 0;
+
+    for (unsigned i = 0; i < made_count; i++) {
+        const entry_t *e = find(kept, kept_count, made[i].name);
+
+        if (e == NULL || e->crc != made[i].crc) {
+            failures++;
+            (void)printf("  %s %08lx, %s %08lx\n", made[i].name,
+                    (unsigned long)made[i].crc,
+                    e != NULL ? "expected" : "missing: none expected",
+                    e != NULL ? (unsigned long)e->crc : 0ul);
+        }
+    }
+    for (unsigned i = 0; i < kept_count; i++) {
+        if (strncmp(kept[i].name, PRECISION "/", sizeof PRECISION) == 0 &&
+                find(made, made_count, kept[i].name) == NULL) {
+            failures++;
+            (void)printf("  %s is expected but no longer made\n", kept[i].name);
+        }
+    }
+    (void)printf("  %u of %u checksums wrong\n", failures, made_count);
+    return failures > 0;
+}
+
+static int update(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    bool failed;
+
+    if (file == NULL) {
+        perror(path);
+        return 3;
+    }
+    for (unsigned i = 0; i < kept_count; i++) {
+        if (strncmp(kept[i].name, PRECISION "/", sizeof PRECISION) != 0) {
+            (void)fprintf(file, "%s %08lx\n", kept[i].name,
+                    (unsigned long)kept[i].crc);
+        }
+    }
+    for (unsigned i = 0; i < made_count; i++) {
+        (void)fprintf(
+                file, "%s %08lx\n", made[i].name, (unsigned long)made[i].crc);
+    }
+    failed = ferror(file) != 0;
+    if (fclose(file) != 0 || failed) {
+        perror(path);
+        return 3;
+    }
+    return 0;
+}
+
+static void open_blob(ql_scene_t *scene, const char *path)
+{
+    enum { BLOB_MAX = 65536 };
+    static uint32_t blobs[2][BLOB_MAX / 4];
+    static unsigned count;
+    FILE *file = fopen(path, "rb");
+    size_t size;
+
+    if (file == NULL) {
+        perror(path);
+        exit(3);
+    }
+    size = fread(blobs[count], 1, BLOB_MAX, file);
+    (void)fclose(file);
+    if (ql_blob_open(scene, blobs[count++], size) != QL_OK) {
+        (void)fprintf(stderr, "golden: %s: not a scene\n", path);
+        exit(2);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    ql_scene_t scenes[2];
+
+    if (argc != 5) {
+        (void)fputs("usage: golden print|check|update BLOB16 BLOB8 CHECKSUMS\n"
+                    "Example: golden check build/golden/cornell16.qlb "
+                    "build/golden/cornell8.qlb tests/golden/checksums.txt\n",
+                stderr);
+        return 1;
+    }
+    open_blob(scenes, argv[2]);
+    open_blob(scenes + 1, argv[3]);
+    add_tables();
+    add_numbers();
+    add_samplers();
+    add_warps();
+    add_tonemap();
+    add_pictures(scenes);
+    read_checksums(argv[4]);
+    if (strcmp(argv[1], "check") == 0) {
+        return check();
+    }
+    if (strcmp(argv[1], "update") == 0) {
+        return update(argv[4]);
+    }
+    for (unsigned i = 0; i < made_count; i++) {
+        (void)printf("%s %08lx\n", made[i].name, (unsigned long)made[i].crc);
+    }
+    return 0;
+}

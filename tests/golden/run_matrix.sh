@@ -1,0 +1,119 @@
+#!/bin/sh
+# run_matrix.sh - the goldens with every compiler, level, word size, byte order
+# SPDX-License-Identifier: MIT
+#
+# usage: tests/golden/run_matrix.sh [CONFIG | --update]
+#   CONFIG    only configurations whose name contains it
+#   --update  rewrite checksums.txt from one build of each precision
+#
+# Builds golden.c and the core each way and compares with checksums.txt. Prints
+# "golden/NAME  matches_bit_for_bit  ok" a configuration; a compiler or emulator
+# that is missing is a failure. Needs build/qlux-scene; works in build/golden.
+#
+# Example: tests/golden/run_matrix.sh powerpc
+
+set -u
+only=${1:-}
+out=build/golden
+sums=tests/golden/checksums.txt
+warn='-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef'
+warn="$warn -Wmissing-prototypes -Werror"
+failed=0
+ran=0
+
+mkdir -p "$out"
+for bits in 16 8; do
+    build/qlux-scene tests/scenes/cornell.scene -o "$out/cornell$bits.qlb" \
+        --node-bits "$bits" --quiet || exit 1
+done
+
+# build NAME COMPILER FLAGS: build/golden/NAME
+build()
+{
+    # shellcheck disable=SC2086  # COMPILER and FLAGS are lists of words
+    $2 $warn $3 -Ifirmware -Ihal firmware/*/*.c tests/golden/golden.c \
+        -o "$out/$1"
+}
+
+# run NAME RUNNER MODE
+run()
+{
+    # shellcheck disable=SC2086
+    $2 "$out/$1" "$3" "$out/cornell16.qlb" "$out/cornell8.qlb" "$sums"
+}
+
+# config NAME RUNNER COMPILER FLAGS: both precisions
+config()
+{
+    case $1 in
+    *"$only"*) ;;
+    *) return ;;
+    esac
+    for precision in draft fine; do
+        number=0
+        [ "$precision" = draft ] || number=1
+        name=$1-$precision
+        ran=$((ran + 1))
+        if build "$name" "$3" "$4 -DQL_CFG_PRECISION=$number" \
+            > "$out/$name.log" 2>&1 &&
+            run "$name" "$2" check >> "$out/$name.log" 2>&1; then
+            result='ok'
+        else
+            result="FAIL see $out/$name.log"
+            failed=$((failed + 1))
+        fi
+        printf '%-20s %-52s %s\n' "golden/$name" matches_bit_for_bit "$result"
+        [ "$result" = ok ] || sed -n '1,12p' "$out/$name.log"
+    done
+}
+
+if [ "$only" = --update ]; then
+    for number in 0 1; do
+        build "update-$number" "${CC:-cc}" "-O2 -DQL_CFG_PRECISION=$number" &&
+            run "update-$number" '' update || exit 1
+    done
+    echo "$sums: $(wc -l < "$sums") checksums"
+    exit 0
+fi
+
+for level in O0 O2 Os; do
+    config "gcc-$level" '' gcc "-$level"
+    config "clang-$level" '' clang "-$level"
+done
+config gcc-halves '' gcc '-O2 -DQL_PORT_WIDE_MUL=0'
+config clang-halves '' clang '-O2 -DQL_PORT_WIDE_MUL=0'
+
+# 32-bit words. The multilib package does not bring <asm/errno.h> along.
+config gcc-i386 '' gcc \
+    "-m32 -O2 -isystem /usr/include/$(gcc -print-multiarch)"
+
+# The other byte order.
+config powerpc qemu-ppc powerpc-linux-gnu-gcc-12 '-static -O2'
+config powerpc-halves qemu-ppc powerpc-linux-gnu-gcc-12 \
+    '-static -O2 -DQL_PORT_WIDE_MUL=0'
+
+# rejects WHAT AWK-PROGRAM: checksums that AWK changes must fail
+rejects()
+{
+    ran=$((ran + 1))
+    result=ok
+    awk "$2" "$sums" > "$out/changed.txt"
+    if "$out/gcc-O2-fine" check "$out/cornell16.qlb" "$out/cornell8.qlb" \
+        "$out/changed.txt" > "$out/rejects.log" 2>&1; then
+        result="FAIL it passes"
+        failed=$((failed + 1))
+    fi
+    printf '%-20s %-52s %s\n' golden/check "rejects_$1" "$result"
+}
+
+if [ -z "$only" ]; then
+    rejects a_changed_checksum 'NR == 60 { $2 = "00000000" } 1'
+    rejects a_missing_checksum 'NR != 60'
+    rejects a_checksum_of_nothing '{ print } END { print "fine/no 0" }'
+fi
+
+if [ "$ran" -eq 0 ]; then
+    echo "golden/matrix has_a_configuration_named_$only FAIL"
+    exit 1
+fi
+[ "$failed" -eq 0 ]

@@ -1,0 +1,29 @@
+/* picture.h - load blobs, write the pictures of a failed claim */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef PICTURE_H
+#define PICTURE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scene/ql_blob.h"
+
+/* Read a whole file into memory that free() takes; NULL if it cannot be read.
+ * Aligned as a blob must be. */
+void *picture_load(const char *path, size_t *size);
+
+/* One radiance unit of a scene, in the units of its Ke. */
+double picture_radiance_unit(const ql_scene_t *scene);
+
+/* Leave build/fail/<name>_actual.ppm and <name>_diff.ppm: the picture with a
+ * gamma of 2.2, and red where it is too bright, blue where too dark.
+ *
+ *   name           -   of the test
+ *   actual, wanted -   radiance, 3 * width * height, rows from the top
+ *   return         the path of the difference, or why it could not be written
+ */
+const char *picture_fail(const char *name, const double *actual,
+        const double *wanted, unsigned width, unsigned height);
+
+#endif

@@ -1,0 +1,77 @@
+/* ql_stats.h - p-values and moments for tests (double, host only) */
+/* SPDX-License-Identifier: MIT */
+
+/* Limits used with these p-values: seeds are fixed and every suite has about
+ * fifty statistical claims, so a claim fails at p below STATS_P_MIN, which
+ * makes a false alarm after an honest change of code one in a million. */
+
+#ifndef QL_STATS_H
+#define QL_STATS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define STATS_P_MIN 2e-8
+
+/* A point of the normal distribution beyond which both tails together hold
+ * less than 1e-6: for moments with a known standard deviation. */
+#define STATS_Z_MAX 4.9
+
+/* Regularised upper incomplete gamma function Q(a, x); a > 0, x >= 0.
+ * Relative error below 1e-10 where the result exceeds 1e-300. */
+double stats_gamma_q(double a, double x);
+
+/* Probability of a chi-square value at least this large. */
+double stats_chi2_p(double chi2, double dof);
+
+/* Sum of (count - expected)^2 / expected over n bins of equal expectation. */
+double stats_chi2_equal(const uint32_t *counts, size_t n, double expected);
+
+/* The same over bins of unequal expectation. Neighbours are pooled until their
+ * expectation reaches 5; a hit where nothing is expected gives INFINITY.
+ * *dof is the number of pools less one. */
+double stats_chi2(
+        const uint32_t *counts, const double *expected, size_t n, double *dof);
+
+/* Probability of a standard normal at least |z| from 0, both tails. */
+double stats_normal_p_two_sided(double z);
+
+/* z with P(normal <= z) = p, for p in (0, 1); error below 1e-12. */
+double stats_normal_quantile(double p);
+
+/* Largest distance between the empirical distribution function of n sorted
+ * values in [0, 1] and the uniform one. */
+double stats_ks_uniform(const double *sorted, size_t n);
+
+/* Probability of a Kolmogorov-Smirnov distance at least d from n values
+ * (asymptotic series with Stephens' correction). */
+double stats_ks_p(double d, size_t n);
+
+/* Sort ascending. */
+void stats_sort(double *values, size_t n);
+
+/* Pearson's correlation of n pairs; 0 if either side is constant. */
+double stats_correlation(const double *a, const double *b, size_t n);
+
+/* Mean and variance, one value at a time (Welford). Begin with zeros. */
+typedef struct {
+    double n;
+    double mean;
+    double m2; /* sum of squared distances from the mean */
+} stats_moments_t;
+
+void stats_add(stats_moments_t *moments, double value);
+
+/* Unbiased variance of what was added; 0 for fewer than two values. */
+double stats_variance(const stats_moments_t *moments);
+
+/* The next 64 random bits (SplitMix64); any state will do to begin. */
+uint64_t stats_random(uint64_t *state);
+
+/* The next number of [0, n), for n up to 2^32; bias below 2^-32. */
+uint32_t stats_random_below(uint64_t *state, uint64_t n);
+
+/* The next double of [0, 1), 53 bits. */
+double stats_random_unit(uint64_t *state);
+
+#endif

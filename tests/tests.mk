@@ -1,0 +1,111 @@
+# tests.mk - build every test, write the list of jobs, run them side by side
+#
+# A configuration (tests/configs) is the core with one set of gates; unit tests
+# run against each of them, known answers against the two precisions. Sanitizers
+# are configurations of their own.
+
+include $(wildcard tests/configs/*.mk)
+configs := $(sort $(basename $(notdir $(wildcard tests/configs/*.mk))))
+sanitize := -fsanitize=address,undefined -fno-sanitize-recover=all
+config_fine-san := $(config_fine) $(sanitize)
+config_draft-san := $(config_draft) $(sanitize)
+
+test_flags := -Werror -O2 -g
+test_hdr := $(wildcard tests/*.h tests/*/*.h tools/*.h tools/scene/*.h sim/*.h)
+support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
+    tests/known/double_pt.c tests/bench/bench_rays.c tests/bench/float_pt.c \
+    firmware/*.c) $(addprefix tools/,cli.c image.c png.c deflate.c sums.c \
+    develop.c) $(filter-out %/scene_main.c,$(wildcard tools/scene/*.c))
+
+# Under configuration $(1): the core, what tests share, and every test.
+define config_rules
+build/test/$(1)/%.o: %.c $(core_hdr) $(test_hdr)
+	@mkdir -p $$(@D)
+	$$(CC) $$(HOST) $(test_flags) -Isim -Itests/known -Itests/bench \
+	    $(config_$(1)) -c $$< -o $$@
+
+build/test/$(1)/core.a: $(core_src:%.c=build/test/$(1)/%.o)
+	rm -f $$@ && ar rcs $$@ $$^
+
+build/test/$(1)/support.a: $(support:%.c=build/test/$(1)/%.o)
+	rm -f $$@ && ar rcs $$@ $$^
+
+build/test/$(1)/%: build/test/$(1)/tests/%.o build/test/$(1)/support.a \
+    build/test/$(1)/core.a
+	@mkdir -p $$(@D)
+	$$(CC) $(config_$(1)) $(test_flags) $$^ $$(filter %/support.a,$$^) \
+	    -o $$@ -lm -lpthread
+endef
+$(foreach c,$(configs) fine-san draft-san,$(eval $(call config_rules,$(c))))
+.SECONDARY:
+
+unit := $(patsubst tests/%.c,%,$(wildcard tests/unit/test_*.c))
+tool := $(patsubst tests/%.c,%,$(wildcard tests/tools/test_*.c))
+known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c) \
+    $(wildcard tests/stat/stat_*.c))
+
+# Jobs, longest first, so that the last one is short: "name|command".
+in = $(foreach t,$(2),$(1)/$(t)|build/test/$(1)/$(t)$(if $(findstring \
+    test_app,$(t)), build/cornell.qlb);)
+jobs_known := $(foreach c,fine draft,$(call in,$(c),$(known)))
+jobs_quick := $(call in,fine,$(unit) $(tool)) $(call in,draft,$(unit))
+jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool)))
+jobs_configs := $(foreach c,$(filter-out fine draft,$(configs)),$(call \
+    in,$(c),$(unit)))
+jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
+    tools/diff|tests/tools/test_diff.sh; \
+    tools/scene|tests/tools/test_scene.sh; \
+    tools/lut|tests/tools/test_lut.sh; \
+    tools/recv|tests/tools/test_recv.sh build/qlux-recv build/test/fine/tools/stream_main;
+jobs_lint := lint/layers|tools/check_layers.sh; \
+    lint/docs|tools/check_docs.sh; lint/format|tools/check_format.sh;
+jobs_boards := boards|tests/boards/test_boards.sh; \
+    boards/stack|tests/tools/test_stack_report.sh; \
+    bench|tests/bench/test_bench.sh;
+jobs_matrix := golden|tests/golden/run_matrix.sh; \
+    objects|tools/check_objects.sh;
+
+programs_of = $(filter build/test/%,$(subst |, ,$(subst ;, ,$(1))))
+
+# $(1) a list of jobs: build what they run, then run them.
+define run
+	@mkdir -p build/test
+	@printf '%s' '$(1)' | tr ';' '\n' | sed 's/^ *//; /^$$/d' > build/test/jobs
+	@tests/run.sh build/test/jobs
+endef
+
+test: ## Run everything, on this PC and on every emulated board
+	@tools/setup.sh
+	@$(MAKE) --no-print-directory test-all
+
+test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
+    $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san) $(jobs_configs))
+	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
+
+test-quick: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
+    $(call programs_of,$(jobs_quick)) ## Unit and tool tests on this PC
+	$(call run,$(jobs_quick)$(jobs_scripts))
+
+test-known: build/cornell.qlb \
+    $(call programs_of,$(jobs_known)) ## Pictures whose answer is known
+	$(call run,$(jobs_known))
+
+test-san: $(call programs_of,$(jobs_san)) build/cornell.qlb ## Unit and tool tests under ASan and UBSan
+	$(call run,$(jobs_san))
+
+lint: ## Layers, documents, format
+	$(call run,$(jobs_lint))
+
+check: lint test ## What must pass before a commit
+
+format: ## Format every C file
+	tools/check_format.sh --write
+
+docs: ## Bring the generated file lists up to date
+	tools/check_docs.sh --write
+
+golden-update: ## Rewrite the checksums of the golden pictures
+	tests/golden/run_matrix.sh --update
+
+.PHONY: test test-all test-quick test-known test-san lint check format docs \
+    golden-update

@@ -1,0 +1,121 @@
+/* test_render.c - the simulator's pictures are those of ql_render_line() */
+/* SPDX-License-Identifier: MIT */
+
+/* qlux-sim adds up sums on threads and develops
+ * them afterwards; a board renders line by line. Every format must agree. */
+
+#include <string.h>
+
+#include "box_scene.h"
+#include "develop.h"
+#include "qlux.h"
+#include "sim/sim_render.h"
+
+enum { WIDTH = 33, HEIGHT = 21, SPP = 5, BYTES_MAX = 3 * WIDTH };
+
+static int failures;
+
+static void check(bool ok, const char *claim, const char *format)
+{
+    printf("%-20s %s_%-*s %s\n", "tools/test_render", claim,
+            51 - (int)strlen(claim), format, ok ? "ok" : "FAIL");
+    failures += !ok;
+}
+
+/* Back from 8-bit RGB to what the display gets: the highest bits of each. */
+static void narrow(uint8_t *line, ql_format_t format, const uint8_t *rgb)
+{
+    for (size_t x = 0; x < WIDTH; x++, rgb += 3) {
+        const uint8_t high = (uint8_t)((rgb[0] & 0xf8) | rgb[1] >> 5);
+        const uint8_t low = (uint8_t)((rgb[1] << 3 & 0xe0) | rgb[2] >> 3);
+        switch (format) {
+        case QL_FORMAT_RGB888:
+            memcpy(line + 3 * x, rgb, 3);
+            break;
+        case QL_FORMAT_RGB565_LE:
+        case QL_FORMAT_RGB565_BE:
+            line[2 * x] = format == QL_FORMAT_RGB565_LE ? low : high;
+            line[2 * x + 1] = format == QL_FORMAT_RGB565_LE ? high : low;
+            break;
+        case QL_FORMAT_GRAY8:
+            line[x] = rgb[0];
+            break;
+        case QL_FORMAT_GRAY4:
+            line[x / 2] =
+                    (uint8_t)(x % 2 == 0 ? rgb[0] & 0xf0
+                                         : (line[x / 2] & 0xf0) | rgb[0] >> 4);
+            break;
+        }
+    }
+}
+
+static bool lines_agree(
+        ql_render_t *render, const sums_t *sums, ql_format_t format)
+{
+    uint8_t wanted[BYTES_MAX] = {0}, got[BYTES_MAX] = {0};
+    const ql_output_t output = {format, wanted};
+    image_t image;
+    bool ok = true;
+
+    develop(&image, sums, IMAGE_PPM, format);
+    for (uint16_t y = 0; y < HEIGHT; y++) {
+        ql_render_line(render, y, &output, 1);
+        narrow(got, format, image.bytes + (size_t)3 * WIDTH * y);
+        ok = ok && memcmp(got, wanted, QL_LINE_BYTES(WIDTH, format)) == 0;
+    }
+    image_free(&image);
+    return ok;
+}
+
+/* Sums, as the simulator makes them. Returns the paths it counted. */
+static uint64_t fill_sums(sums_t *sums, const ql_render_t *render)
+{
+    static const sums_range_t all = {0, HEIGHT, 0, SPP};
+    const ql_blob_header_t *h = render->scene->header;
+    sums_range_t clash;
+    sim_stats_t stats;
+
+    memset(sums, 0, sizeof *sums);
+    sums->field[SUMS_WIDTH] = WIDTH;
+    sums->field[SUMS_HEIGHT] = HEIGHT;
+    sums->field[SUMS_RADIANCE_EXP] =
+            (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->radiance_exp));
+    sums->field[SUMS_EXPOSURE_Q8] =
+            (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->exposure_q8));
+    sums_new(sums);
+    (void)sums_claim(sums, &all, &clash);
+    check(sim_render(sums, render, &all, 3, true, &stats), "the_simulator",
+            "finishes");
+    return stats.paths;
+}
+
+int main(void)
+{
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+    ql_render_t render;
+    ql_scene_t scene;
+    sums_t sums;
+    uint64_t paths;
+    size_t size;
+    void *blob;
+
+    cli_begin("test_render");
+    blob = box_scene(&size);
+    settings.width = WIDTH;
+    settings.height = HEIGHT;
+    settings.spp = SPP;
+    if (ql_blob_open(&scene, blob, size) != QL_OK ||
+            ql_render_init(&render, &scene, &settings) != QL_OK) {
+        cli_fail(CLI_INPUT, "the scene does not open");
+    }
+    paths = fill_sums(&sums, &render);
+    for (int f = 0; f < QL_FORMAT_COUNT; f++) {
+        render.diag.paths = 0;
+        check(lines_agree(&render, &sums, (ql_format_t)f),
+                "sim_and_line_agree_on", develop_formats[f]);
+    }
+    check(render.diag.paths == paths && paths > 0, "sim_and_line_agree_on",
+            "the_number_of_paths");
+    sums_free(&sums);
+    return failures != 0;
+}

@@ -1,0 +1,272 @@
+#!/bin/sh
+# test_sim.sh - qlux-sim and qlux-merge: exit codes, nothing left, exact parts
+# SPDX-License-Identifier: MIT
+#
+# Usage: tests/tools/test_sim.sh [BUILD [SCENE.qlb]]
+# Example: tests/tools/test_sim.sh build
+
+build=$(cd "${1:-build}" && pwd) || exit 3
+root=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d) || exit 3
+trap 'rm -rf "$work"' EXIT
+sim=$build/qlux-sim
+merge=$build/qlux-merge
+failures=0
+
+# The scene: the one given, or the Cornell box.
+if [ -n "${2:-}" ]; then
+    cp "$2" "$work/scene.qlb" || exit 3
+else
+    "$build/qlux-scene" "$root/tests/scenes/cornell.scene" \
+        -o "$work/scene.qlb" >"$work/out.txt" || exit 3
+fi
+cd "$work" || exit 3
+
+say() { # claim, what it evaluates to
+    if [ "$2" -eq 0 ]; then
+        printf '%-20s %-52s ok\n' tools/test_sim "$1"
+    else
+        printf '%-20s %-52s FAIL\n' tools/test_sim "$1"
+        failures=$((failures + 1))
+    fi
+}
+
+# expect CLAIM CODE TEXT COMMAND...: the exit code, and TEXT on stderr
+expect() {
+    claim=$1 code=$2 text=$3
+    shift 3
+    "$@" >out.txt 2>err.txt
+    got=$?
+    grep -q -- "$text" err.txt && [ "$got" -eq "$code" ]
+    say "$claim" $?
+}
+
+# Nothing in the folder that was not there before, but for the logs.
+nothing_left() { # claim
+    [ "$(ls | grep -v -e '^scene.qlb$' -e '^out.txt$' -e '^err.txt$' | wc -l)" \
+        -eq 0 ]
+    say "$1" $?
+}
+
+small="--size 20x14 --spp 8 --seed 3 --quiet"
+
+# Usage
+"$sim" --help >help.txt && grep -q Example: help.txt
+say help_has_an_example $?
+rm -f help.txt
+expect no_arguments_are_refused 1 'name a scene' "$sim"
+expect no_output_is_refused 1 'give -o' "$sim" scene.qlb
+expect an_unknown_option_is_refused 1 "'--bogus'" \
+    "$sim" scene.qlb -o a.ppm --bogus
+expect a_missing_value_is_refused 1 "'--spp' needs" "$sim" scene.qlb --spp
+expect an_unknown_extension_is_refused 1 '.ppm, .pfm or .png' \
+    "$sim" scene.qlb -o a.jpg
+for size in 0x8 8x0 -4x4 70000x4 4x70000 16385x1 4 4x 4x4x4 '' x 4:4; do
+    expect "size_'$size'_is_refused" 1 'from 1 to 16384\|needs a value' \
+        "$sim" scene.qlb -o a.ppm --size "$size"
+done
+for spp in 0 -1 16777217 99999999999999999999 1e3 +-1; do
+    expect "spp_'$spp'_is_refused" 1 'from 1 to 16777216' \
+        "$sim" scene.qlb -o a.ppm --spp "$spp"
+done
+for rows in 5:5 7:3 -1:2 0; do
+    expect "rows_${rows}_are_refused" 1 "'--rows $rows'" \
+        "$sim" scene.qlb -o a.ppm --size 8x8 --rows "$rows"
+done
+expect rows_below_the_picture_are_refused 1 'from 0 to 8' \
+    "$sim" scene.qlb -o a.ppm --size 8x8 --rows 4:9
+expect samples_beyond_spp_are_refused 1 'ends before' \
+    "$sim" scene.qlb -o a.ppm --spp 4 --samples 2:5
+expect direct_mis_is_not_supported_yet 1 \
+    "'--direct mis' is not supported by this version" \
+    "$sim" scene.qlb -o a.ppm --direct mis
+expect indirect_brdf_is_not_supported_yet 1 'not supported by this version' \
+    "$sim" scene.qlb -o a.ppm --indirect brdf
+expect lights_all_is_not_supported_yet 1 'not supported by this version' \
+    "$sim" scene.qlb -o a.ppm --lights all
+expect two_light_samples_are_not_supported_yet 1 'not supported' \
+    "$sim" scene.qlb -o a.ppm --light-samples 2
+expect a_strategy_of_no_name_lists_the_names 1 'solid-angle or mis' \
+    "$sim" scene.qlb -o a.ppm --direct magic
+expect threads_0_are_refused 1 'from 1 to 1024' \
+    "$sim" scene.qlb -o a.ppm --threads 0
+expect a_format_without_display_picture_is_refused 1 "'--format' needs" \
+    "$sim" scene.qlb -o a.pfm --format gray4
+nothing_left wrong_usage_leaves_nothing
+
+# Input
+expect a_missing_scene_is_code_3 3 'none.qlb' "$sim" none.qlb -o a.ppm
+expect a_folder_as_scene_is_code_3 3 'directory' "$sim" . -o a.ppm
+: >empty.qlb
+expect an_empty_scene_is_code_2 2 'empty.qlb' "$sim" empty.qlb -o a.ppm
+echo 'not a scene but some text, long enough to be one: ............' >bad.qlb
+cat bad.qlb bad.qlb >worse.qlb
+expect text_as_scene_is_code_2 2 'byte 0:' "$sim" worse.qlb -o a.ppm
+size=$(wc -c <scene.qlb)
+ok=0
+for cut in 1 3 4 40 87 88 200 $((size / 2)) $((size - 1)); do
+    head -c "$cut" scene.qlb >cut.qlb
+    "$sim" cut.qlb -o a.ppm >out.txt 2>err.txt
+    [ $? -eq 2 ] && grep -q cut.qlb err.txt || ok=1
+done
+say a_truncated_scene_is_code_2_at_any_length $ok
+(head -c 300 scene.qlb; printf 'XXXX'; tail -c +305 scene.qlb) >flip.qlb
+expect a_changed_scene_is_code_2 2 'CRC-32' "$sim" flip.qlb -o a.ppm
+rm -f bad.qlb cut.qlb flip.qlb empty.qlb worse.qlb
+nothing_left bad_input_leaves_nothing
+
+# Output
+expect a_folder_that_is_not_there_is_code_3 3 'none/a.ppm' \
+    "$sim" scene.qlb -o none/a.ppm $small
+mkdir folder.ppm
+expect a_folder_as_output_is_code_3 3 'directory' \
+    "$sim" scene.qlb -o folder.ppm $small
+rmdir folder.ppm
+ln -s /dev/full full.ppm
+expect a_full_disk_is_code_3 3 'No space' "$sim" scene.qlb -o full.ppm $small
+rm full.ppm
+"$sim" scene.qlb --save-sums /dev/null --stats $small >/dev/full 2>err.txt
+[ $? -eq 3 ]
+say a_full_stdout_is_code_3 $?
+(
+    ulimit -f 1
+    exec "$sim" scene.qlb -o big.ppm --size 64x64 --spp 1 --quiet 2>err.txt
+)
+[ $? -eq 3 ] && grep -q big.ppm err.txt
+say a_file_too_large_is_code_3 $?
+(
+    ulimit -f 1
+    exec "$sim" scene.qlb --save-sums big.qls --size 64x64 --spp 1 --quiet \
+        2>err.txt
+)
+[ $? -eq 3 ] && grep -q big.qls err.txt
+say sums_too_large_are_code_3 $?
+nothing_left a_failed_write_leaves_nothing
+echo precious >keep.ppm
+for signal in INT TERM; do
+    "$sim" scene.qlb -o keep.ppm --save-sums keep.qls --size 400x400 \
+        --spp 100000 2>err.txt &
+    child=$!
+    tries=0 # up to ten seconds on a busy machine
+    until [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 2 ] ||
+            [ $tries -ge 100 ]; do
+        tries=$((tries + 1))
+        sleep 0.1
+    done
+    begun=$(ls ./*.tmp 2>/dev/null | wc -l)
+    kill -$signal $child
+    wait $child
+    code=$?
+    [ "$begun" -eq 2 ] && [ $code -eq 3 ] && grep -q interrupted err.txt
+    say "a_sig$(echo $signal | tr A-Z a-z)_is_code_3" $?
+done
+[ "$(cat keep.ppm)" = precious ]
+say a_stopped_render_keeps_the_old_file $?
+"$sim" scene.qlb -o keep.ppm $small && head -c 2 keep.ppm | grep -q P6
+say a_finished_render_replaces_it $?
+rm keep.ppm
+nothing_left a_stopped_render_leaves_nothing
+"$sim" scene.qlb -o - $small >out.txt 2>err.txt
+[ $? -eq 1 ]
+say a_dash_is_not_an_output $?
+
+# The same bits
+same() { # claim, files
+    claim=$1
+    shift
+    first=$1 ok=0
+    shift
+    for f in "$@"; do
+        cmp -s "$first" "$f" || ok=1
+    done
+    say "$claim" $ok
+}
+for t in 1 2 7; do
+    "$sim" scene.qlb -o t$t.ppm --save-sums t$t.qls $small --threads $t
+done
+same threads_change_no_bit_of_the_picture t1.ppm t2.ppm t7.ppm
+same threads_change_no_bit_of_the_sums t1.qls t2.qls t7.qls
+for kind in ppm pfm png; do
+    "$sim" scene.qlb -o whole.$kind $small
+done
+same a_second_run_gives_the_same_picture t1.ppm whole.ppm
+"$sim" scene.qlb -o dark.ppm $small --direct none --indirect none
+! cmp -s dark.ppm whole.ppm
+say direct_none_indirect_none_shows_only_emitters $?
+
+n=0
+for r in 0:5 5:6 6:14; do
+    for s in 3:8 0:1 1:3; do
+        n=$((n + 1))
+        "$sim" scene.qlb --save-sums part$n.qls $small --rows $r --samples $s
+    done
+done
+for kind in ppm pfm png; do
+    "$merge" part*.qls -o merged.$kind --save-sums merged.qls
+    same "parts_merge_to_the_same_$kind" whole.$kind merged.$kind
+done
+same parts_merge_to_the_same_sums t1.qls merged.qls
+"$merge" part9.qls part1.qls part5.qls --quiet --save-sums odd.qls
+"$merge" part8.qls part2.qls part3.qls part4.qls part6.qls part7.qls --quiet \
+    --save-sums even.qls
+"$merge" even.qls odd.qls --save-sums again.qls
+same sums_of_sums_merge_in_any_order t1.qls again.qls
+"$merge" t1.qls -o gray.png --format gray4
+"$sim" scene.qlb -o gray2.png --format gray4 $small
+same merge_and_sim_agree_on_display_formats gray.png gray2.png
+
+"$sim" scene.qlb -o rows.ppm $small --rows 5:6
+head=$(($(wc -c <whole.ppm) - 20 * 14 * 3))
+tail -c +$((head + 1 + 300)) whole.ppm | head -c 60 >a.txt
+tail -c +$((head + 1 + 300)) rows.ppm | head -c 60 >b.txt
+tail -c +$((head + 1)) rows.ppm | head -c 300 | tr -d '\0' >c.txt
+tail -c +$((head + 1 + 360)) rows.ppm | tr -d '\0' >>c.txt
+cmp -s a.txt b.txt && [ ! -s c.txt ]
+say rows_outside_the_range_are_black $?
+"$sim" scene.qlb -o s.pfm --size 20x14 --seed 3 --quiet --samples 0:8
+same samples_alone_set_spp whole.pfm s.pfm
+
+# Parts that do not fit
+for other in '--seed 4' '--bounces 1' '--sampler random' '--direct none' \
+    '--indirect none' '--size 14x20'; do
+    "$sim" scene.qlb --save-sums other.qls $small --samples 0:1 $other
+    expect "merge_refuses_another${other%% *}" 2 'other.qls: its' \
+        "$merge" part1.qls other.qls -o no.ppm
+done
+if [ -x "$sim-draft" ]; then
+    "$sim-draft" scene.qlb --save-sums other.qls $small
+    expect merge_refuses_another_precision 2 'position bits' \
+        "$merge" part1.qls other.qls -o no.ppm
+fi
+expect merge_refuses_a_sample_counted_twice 2 'counted before' \
+    "$merge" part1.qls part2.qls part1.qls -o no.ppm
+"$sim" scene.qlb --save-sums other.qls $small --rows 4:6 --samples 7:8
+expect merge_refuses_an_overlap 2 'counted before' \
+    "$merge" part1.qls other.qls -o no.ppm
+expect merge_warns_of_missing_rows 0 '9 of 14 rows are missing' \
+    "$merge" part1.qls -o some.ppm
+expect merge_warns_of_uneven_samples 0 'from 1 to 5 samples' \
+    "$merge" part1.qls part5.qls part8.qls -o some.ppm
+expect merge_without_parts_is_code_1 1 'at least one' "$merge" -o no.ppm
+expect merge_of_a_missing_file_is_code_3 3 'none.qls' \
+    "$merge" none.qls -o no.ppm
+head -c 500 t1.qls >cut.qls
+expect merge_of_a_cut_file_is_code_2 2 'cut.qls: byte' \
+    "$merge" cut.qls -o no.ppm
+expect merge_of_a_picture_is_code_2 2 'byte 0' "$merge" t1.ppm -o no.ppm
+[ ! -e no.ppm ] && [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
+say a_failed_merge_leaves_nothing $?
+
+# Numbers
+"$sim" scene.qlb --save-sums n.qls $small --stats >stats.txt
+grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 7 ]
+say stats_are_seven_numbers $?
+for f in rgb888 rgb565le rgb565be gray8 gray4; do
+    "$sim" scene.qlb -o $f.ppm --format $f $small || failures=$((failures + 1))
+done
+same default_format_is_rgb888 whole.ppm rgb888.ppm
+same byte_order_shows_the_same_picture rgb565le.ppm rgb565be.ppm
+! cmp -s rgb888.ppm rgb565le.ppm && ! cmp -s gray8.ppm gray4.ppm
+say formats_differ_otherwise $?
+
+exit $((failures != 0))

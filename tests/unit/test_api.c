@@ -1,0 +1,416 @@
+/* test_api.c - the synopsis in qlux.h, and that no split changes a bit */
+/* SPDX-License-Identifier: MIT */
+
+#include <stdlib.h>
+
+#include "mini_scene.h"
+#include "ql_stats.h"
+#include "ql_test.h"
+#include "qlux.h"
+
+enum { WIDTH = 32, HEIGHT = 24, SPP = 8 };
+
+static mini_scene_t mini;
+static ql_scene_t scene;
+
+static void build(unsigned node_bits)
+{
+    static const int32_t low[3] = {8, 8, 8}, high[3] = {32759, 32759, 32759};
+    static const int32_t lamp[4][3] = {{12000, 32000, 12000},
+            {20000, 32000, 12000}, {20000, 32000, 20000},
+            {12000, 32000, 20000}};
+    static const int32_t box_low[3] = {9000, 8, 20000};
+    static const int32_t box_high[3] = {15000, 12000, 26000};
+    static const double right[3] = {0.5, 0, 0}, up[3] = {0, 0.5, 0};
+    uint16_t white, light;
+
+    mini_begin(&mini);
+    mini.node_bits = node_bits;
+    white = mini_material(&mini, 0.7, 0);
+    light = mini_material(&mini, 0, 0.9);
+    mini_room(&mini, low, high, white);
+    mini_room(&mini, box_low, box_high, white); /* seen from behind */
+    mini_quad(&mini, lamp[0], lamp[1], lamp[2], lamp[3], light);
+    mini_eye(&mini, 16384, 16384, 1000);
+    mini_field(&mini, right, up);
+    mini.width = WIDTH;
+    mini.height = HEIGHT;
+    mini_open(&mini, &scene);
+}
+
+static ql_render_t begin(const ql_settings_t *settings)
+{
+    ql_render_t render;
+
+    if (ql_render_init(&render, &scene, settings) != QL_OK) {
+        (void)fprintf(stderr, "test_api: settings refused\n");
+        exit(2);
+    }
+    return render;
+}
+
+static ql_settings_t small(void)
+{
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+
+    settings.spp = SPP;
+    settings.seed = 5;
+    return settings;
+}
+
+/* ---- The synopsis ------------------------------------------------------ */
+
+static unsigned sent;
+static unsigned long bright;
+
+static void send(const uint8_t *line)
+{
+    sent++;
+    for (unsigned i = 0; i < 3 * 128; i++) {
+        bright += line[i];
+    }
+}
+
+TEST(the_synopsis_of_qlux_h_renders_a_picture)
+{
+    const void *blob;
+    size_t blob_size;
+
+    build(16);
+    blob = mini.blob;
+    blob_size = mini.size_bytes;
+    {
+        static uint8_t line[QL_LINE_BYTES(128, QL_FORMAT_RGB888)];
+        ql_scene_t opened;
+        ql_render_t render;
+        ql_settings_t settings = QL_SETTINGS_DEFAULT;
+        const ql_output_t output = {QL_FORMAT_RGB888, line};
+
+        settings.width = 128;
+        settings.height = 64;
+        if (ql_blob_open(&opened, blob, blob_size) == QL_OK &&
+                ql_render_init(&render, &opened, &settings) == QL_OK) {
+            for (uint16_t y = 0; y < 64; y++) {
+                ql_render_line(&render, y, &output, 1);
+                send(line);
+            }
+        }
+    }
+    CHECK(sent == 64, "%u lines were sent", sent);
+    CHECK(bright > 64 * 128 * 3 * 8, "mean byte %.2f",
+            (double)bright / (64 * 128 * 3));
+    NOTE("mean byte %.1f", (double)bright / (64 * 128 * 3));
+}
+
+/* ---- Any order and any split ------------------------------------------- */
+
+static uint8_t picture[HEIGHT][3 * WIDTH], other[HEIGHT][3 * WIDTH];
+
+static void render_lines(const ql_settings_t *settings,
+        uint8_t pixels[HEIGHT][3 * WIDTH], const uint16_t order[HEIGHT])
+{
+    ql_render_t render = begin(settings);
+
+    for (unsigned i = 0; i < HEIGHT; i++) {
+        const ql_output_t output = {QL_FORMAT_RGB888, pixels[order[i]]};
+
+        ql_render_line(&render, order[i], &output, 1);
+    }
+}
+
+static void in_order(uint16_t order[HEIGHT])
+{
+    for (uint16_t y = 0; y < HEIGHT; y++) {
+        order[y] = y;
+    }
+}
+
+TEST(any_order_of_lines_gives_the_same_bits)
+{
+    const ql_settings_t settings = small();
+    uint16_t order[HEIGHT];
+    uint64_t state = 1;
+
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        build(bits);
+        in_order(order);
+        render_lines(&settings, picture, order);
+        for (unsigned i = 0; i < 4; i++) {
+            for (unsigned k = HEIGHT - 1; k > 0; k--) {
+                const unsigned j = stats_random_below(&state, k + 1);
+                const uint16_t swap = order[k];
+
+                order[k] = order[j];
+                order[j] = swap;
+            }
+            render_lines(&settings, other, order);
+            CHECK(memcmp(picture, other, sizeof picture) == 0,
+                    "%u-bit nodes, order %u", bits, i);
+        }
+    }
+}
+
+TEST(both_node_widths_give_the_same_bits)
+{
+    const ql_settings_t settings = small();
+    uint16_t order[HEIGHT];
+
+    in_order(order);
+    build(8);
+    render_lines(&settings, picture, order);
+    build(16);
+    render_lines(&settings, other, order);
+    CHECK(memcmp(picture, other, sizeof picture) == 0, "the pictures differ");
+}
+
+TEST(any_split_of_the_samples_gives_the_same_bits)
+{
+    static const uint8_t samplers[] = {QL_SAMPLER_RANDOM, QL_SAMPLER_SOBOL};
+
+    build(16);
+    for (unsigned s = 0; s < 2; s++) {
+        ql_settings_t settings = small();
+        ql_render_t render;
+
+        settings.sampler = samplers[s];
+        render = begin(&settings);
+        for (unsigned i = 0; i < WIDTH * HEIGHT; i++) {
+            const uint16_t x = (uint16_t)(i % WIDTH), y = (uint16_t)(i / WIDTH);
+            ql_sum_t whole = {{0, 0, 0}}, parts = {{0, 0, 0}};
+
+            ql_render_pixel(&render, x, y, 0, SPP, &whole);
+            ql_render_pixel(&render, x, y, 5, SPP - 5, &parts);
+            ql_render_pixel(&render, x, y, 0, 0, &parts);
+            for (uint32_t k = 5; k-- > 0;) {
+                ql_render_pixel(&render, x, y, k, 1, &parts);
+            }
+            CHECK(memcmp(&whole, &parts, sizeof whole) == 0,
+                    "sampler %u at %u, %u", s, x, y);
+        }
+    }
+    NOTE("%d pixels, both samplers", WIDTH * HEIGHT);
+}
+
+TEST(a_line_is_its_pixels_encoded)
+{
+    const ql_settings_t settings = small();
+    ql_render_t render;
+    uint8_t line[3 * WIDTH], pixels[3 * WIDTH];
+    const ql_output_t whole = {QL_FORMAT_RGB888, line};
+    const ql_output_t single = {QL_FORMAT_RGB888, pixels};
+
+    build(16);
+    render = begin(&settings);
+    ql_render_line(&render, 7, &whole, 1);
+    for (uint16_t x = WIDTH; x-- > 0;) {
+        ql_sum_t sum = {{0, 0, 0}};
+
+        ql_render_pixel(&render, x, 7, 0, SPP, &sum);
+        ql_render_encode(&render, x, 7, &sum, SPP, &single, 1);
+    }
+    CHECK(memcmp(line, pixels, sizeof line) == 0, "line 7 differs");
+}
+
+TEST(several_outputs_hold_what_each_would_alone)
+{
+    const ql_settings_t settings = small();
+    ql_render_t render;
+    uint8_t together[QL_FORMAT_COUNT][3 * WIDTH] = {{0}};
+    uint8_t alone[QL_FORMAT_COUNT][3 * WIDTH] = {{0}};
+    ql_output_t outputs[QL_FORMAT_COUNT];
+
+    build(16);
+    render = begin(&settings);
+    for (unsigned i = 0; i < QL_FORMAT_COUNT; i++) {
+        const ql_output_t output = {(ql_format_t)i, alone[i]};
+
+        outputs[i].format = (ql_format_t)i;
+        outputs[i].pixels = together[i];
+        ql_render_line(&render, 9, &output, 1);
+    }
+    ql_render_line(&render, 9, outputs, QL_FORMAT_COUNT);
+    CHECK(memcmp(together, alone, sizeof together) == 0, "they differ");
+    NOTE("%d formats at once", QL_FORMAT_COUNT);
+}
+
+TEST(seeds_and_samplers_give_different_pictures_of_one_mean)
+{
+    ql_settings_t settings = small();
+    double mean[3] = {0, 0, 0};
+    ql_sum_t sums[3][WIDTH * HEIGHT];
+    unsigned same = 0;
+
+    build(16);
+    for (unsigned s = 0; s < 3; s++) {
+        ql_render_t render;
+
+        settings.seed = s == 1 ? 6 : 5;
+        settings.sampler = s == 2 ? QL_SAMPLER_RANDOM : QL_SAMPLER_SOBOL;
+        render = begin(&settings);
+        memset(sums[s], 0, sizeof sums[s]);
+        for (unsigned i = 0; i < WIDTH * HEIGHT; i++) {
+            ql_render_pixel(&render, (uint16_t)(i % WIDTH),
+                    (uint16_t)(i / WIDTH), 0, SPP, &sums[s][i]);
+            mean[s] += (double)sums[s][i].rgb[1] / (WIDTH * HEIGHT);
+            same += s > 0 && sums[s][i].rgb[1] == sums[0][i].rgb[1] &&
+                    sums[s][i].rgb[1] != 0;
+        }
+    }
+    /* the lamp itself is constant, so its pixels agree */
+    CHECK(same < WIDTH * HEIGHT / 4, "%u pixels agree", same);
+    CHECK(mean[1] > 0.9 * mean[0] && mean[1] < 1.1 * mean[0] &&
+                    mean[2] > 0.9 * mean[0] && mean[2] < 1.1 * mean[0],
+            "means %.0f %.0f %.0f", mean[0], mean[1], mean[2]);
+}
+
+TEST(lines_may_be_rendered_by_copies_of_a_render)
+{
+    const ql_settings_t settings = small();
+    ql_render_t first, second;
+    uint8_t line[3 * WIDTH], copy[3 * WIDTH];
+    const ql_output_t a = {QL_FORMAT_RGB888, line};
+    const ql_output_t b = {QL_FORMAT_RGB888, copy};
+
+    build(16);
+    first = begin(&settings);
+    ql_render_line(&first, 3, &a, 1);
+    second = first;
+    ql_render_line(&first, 4, &a, 1);
+    ql_render_line(&second, 4, &b, 1);
+    CHECK(memcmp(line, copy, sizeof line) == 0, "line 4 differs");
+#if QL_CFG_DIAG
+    CHECK(second.diag.paths == 2ul * WIDTH * SPP, "%lu paths",
+            (unsigned long)second.diag.paths);
+    CHECK(memcmp(&first.diag, &second.diag, sizeof first.diag) == 0,
+            "the counters differ");
+#endif
+}
+
+/* ---- Settings ---------------------------------------------------------- */
+
+TEST(settings_outside_their_range_are_refused)
+{
+    enum { CASES = 10 };
+    static const ql_render_t zero;
+    unsigned refused = 0;
+
+    build(16);
+    for (unsigned i = 0; i < CASES; i++) {
+        ql_settings_t s = small();
+        ql_render_t render;
+        ql_status_t status;
+
+        switch (i) {
+        case 0:
+            s.spp = 0;
+            break;
+        case 1:
+            s.spp = (uint32_t)QL_SPP_MAX + 1;
+            break;
+        case 2:
+            s.width = QL_IMAGE_MAX + 1;
+            break;
+        case 3:
+            s.height = QL_IMAGE_MAX + 1;
+            break;
+        case 4:
+            s.bounces = QL_BOUNCES_MAX + 1;
+            break;
+        case 5:
+            s.sampler = 200;
+            break;
+        case 6:
+            s.direct = 200;
+            break;
+        case 7:
+            s.indirect = 200;
+            break;
+        case 8:
+            s.width = 0xffff;
+            break;
+        default:
+            s.bounces = 0xff;
+            break;
+        }
+        memset(&render, 0x5a, sizeof render);
+        status = ql_render_init(&render, &scene, &s);
+        CHECK(status == QL_ERR_SETTINGS, "case %u: status %d", i, status);
+        CHECK(render.scene == zero.scene && render.settings.spp == 0 &&
+                        render.exposure.m == 0,
+                "case %u left a render", i);
+        refused += status == QL_ERR_SETTINGS;
+    }
+    NOTE("%u cases", refused);
+}
+
+TEST(settings_at_their_limits_render)
+{
+    ql_settings_t s = small();
+    ql_render_t render;
+    ql_sum_t sum = {{0, 0, 0}};
+
+    build(16);
+    s.width = s.height = QL_IMAGE_MAX;
+    s.spp = QL_SPP_MAX;
+    s.bounces = QL_BOUNCES_MAX;
+    s.seed = 0xffffffffu;
+    render = begin(&s);
+    ql_render_pixel(&render, QL_IMAGE_MAX - 1, QL_IMAGE_MAX - 1,
+            (uint32_t)QL_SPP_MAX - 4, 4, &sum);
+    ql_render_pixel(&render, 0, 0, 0, 4, &sum);
+    CHECK(sum.rgb[0] > 0, "nothing was gathered");
+}
+
+TEST(a_size_of_zero_is_the_scenes_own)
+{
+    const ql_settings_t s = small();
+    ql_render_t render;
+
+    build(16);
+    render = begin(&s);
+    CHECK(render.settings.width == WIDTH && render.settings.height == HEIGHT,
+            "%u x %u", render.settings.width, render.settings.height);
+}
+
+/* Emitters still shine at the camera when nothing is estimated. */
+TEST(strategies_of_none_leave_only_what_is_seen)
+{
+    ql_settings_t s = small();
+    ql_render_t render;
+    ql_sum_t sum = {{0, 0, 0}};
+    unsigned lit = 0, partly = 0;
+
+    build(16);
+    s.direct = QL_DIRECT_NONE;
+    s.indirect = QL_INDIRECT_NONE;
+    render = begin(&s);
+    for (unsigned i = 0; i < WIDTH * HEIGHT; i++) {
+        memset(&sum, 0, sizeof sum);
+        ql_render_pixel(&render, (uint16_t)(i % WIDTH), (uint16_t)(i / WIDTH),
+                0, 1, &sum);
+        lit += sum.rgb[0] > 0;
+        partly += sum.rgb[0] > 0 && sum.rgb[0] != 15099494;
+    }
+    /* 0.9 of 2^24 is 15099494.4 */
+    CHECK(partly == 0, "%u pixels are neither black nor the lamp", partly);
+    CHECK(lit > 0, "no pixel sees the lamp");
+    NOTE("%u pixels see the lamp", lit);
+}
+
+int main(int argc, char **argv)
+{
+    TEST_BEGIN("unit/test_api", argc, argv);
+    RUN(the_synopsis_of_qlux_h_renders_a_picture);
+    RUN(any_order_of_lines_gives_the_same_bits);
+    RUN(both_node_widths_give_the_same_bits);
+    RUN(any_split_of_the_samples_gives_the_same_bits);
+    RUN(a_line_is_its_pixels_encoded);
+    RUN(several_outputs_hold_what_each_would_alone);
+    RUN(seeds_and_samplers_give_different_pictures_of_one_mean);
+    RUN(lines_may_be_rendered_by_copies_of_a_render);
+    RUN(settings_outside_their_range_are_refused);
+    RUN(settings_at_their_limits_render);
+    RUN(a_size_of_zero_is_the_scenes_own);
+    RUN(strategies_of_none_leave_only_what_is_seen);
+    return TEST_END();
+}

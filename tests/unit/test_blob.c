@@ -1,0 +1,508 @@
+/* test_blob.c - damaged blobs are refused, or render without reading outside */
+/* SPDX-License-Identifier: MIT */
+
+/* Every blob is opened in a block of exactly its size, so that the address
+ * sanitizer sees a read of one byte too many. */
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/ql_crc.h"
+#include "mini_scene.h"
+#include "ql_stats.h"
+#include "ql_test.h"
+#include "qlux.h"
+
+enum { DAMAGED = 20000 };
+
+static mini_scene_t mini;
+static uint64_t state;
+
+/* A small room with two lamps and a fan of triangles: about a kilobyte, with
+ * every table and a tree of several levels. */
+static void build(unsigned node_bits)
+{
+    static const int32_t low[3] = {8, 8, 8}, high[3] = {32759, 32759, 32759};
+    static const double right[3] = {0.3, 0, 0}, up[3] = {0, 0.3, 0};
+    uint16_t white, lamp;
+    ql_scene_t scene;
+
+    mini_begin(&mini);
+    mini.node_bits = node_bits;
+    mini.leaf_max = 2;
+    white = mini_material(&mini, 0.7, 0);
+    lamp = mini_material(&mini, 0, 0.9);
+    mini_room(&mini, low, high, white);
+    for (int32_t i = 0; i < 6; i++) {
+        const int32_t a[3] = {10000 + 2000 * i, 30000, 16000};
+        const int32_t b[3] = {11500 + 2000 * i, 30000 - 500 * i, 16000};
+        const int32_t c[3] = {10000 + 2000 * i, 30000, 18000 + 100 * i};
+
+        mini_triangle(&mini, a, b, c, i < 2 ? lamp : white);
+    }
+    mini_field(&mini, right, up);
+    mini.width = mini.height = 4;
+    mini_open(&mini, &scene);
+}
+
+/* A copy of the blob, with nothing readable behind it. */
+static uint8_t *copy_of(size_t size)
+{
+    uint8_t *copy = malloc(size ? size : 1);
+
+    if (copy == NULL) {
+        exit(2);
+    }
+    memcpy(copy, mini.blob, size);
+    return copy;
+}
+
+static bool all_zero(const ql_scene_t *scene)
+{
+    static const ql_scene_t zero;
+
+    return scene->header == zero.header && scene->camera == zero.camera &&
+           scene->vertices == zero.vertices &&
+           scene->triangles == zero.triangles && scene->pairs == zero.pairs &&
+           scene->materials == zero.materials && scene->lights == zero.lights &&
+           scene->light_count == 0 && scene->root_link == 0 &&
+           scene->root_meta == 0 && scene->node_bits == 0;
+}
+
+/* Open a copy; a refusal must leave nothing in the scene. */
+static ql_status_t open_copy(
+        ql_scene_t *scene, const uint8_t *copy, size_t size)
+{
+    ql_status_t status;
+
+    memset(scene, 0x5a, sizeof *scene);
+    status = ql_blob_open(scene, copy, size);
+    CHECK(status == QL_OK || all_zero(scene), "status %d left a view", status);
+    return status;
+}
+
+static void repair(uint8_t *copy, size_t size)
+{
+    const uint32_t crc =
+            ql_crc32(0, copy + QL_BLOB_CRC_FROM, size - QL_BLOB_CRC_FROM);
+
+    for (unsigned i = 0; i < 4; i++) {
+        copy[12 + i] = (uint8_t)(crc >> 8 * i);
+    }
+}
+
+/* ---- Refusals ---------------------------------------------------------- */
+
+TEST(a_good_blob_opens)
+{
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        ql_scene_t scene;
+        uint8_t *copy;
+
+        build(bits);
+        copy = copy_of(mini.size_bytes);
+        CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_OK, "%u bits",
+                bits);
+        CHECK(scene.node_bits == bits && scene.light_count == 2 &&
+                        (const uint8_t *)scene.header == copy,
+                "%u bits: %u lights", bits, scene.light_count);
+        CHECK(*ql_blob_missing(copy) == '\0', "%u bits: misses %s", bits,
+                ql_blob_missing(copy));
+        free(copy);
+    }
+}
+
+TEST(a_blob_cut_at_any_byte_is_truncated)
+{
+    build(8);
+    for (size_t size = 0; size < mini.size_bytes; size++) {
+        uint8_t *copy = copy_of(size);
+        ql_scene_t scene;
+        const ql_status_t status = open_copy(&scene, copy, size);
+
+        CHECK(status == QL_ERR_TRUNCATED, "%u of %u bytes: status %d",
+                (unsigned)size, (unsigned)mini.size_bytes, status);
+        free(copy);
+    }
+    NOTE("%u lengths", (unsigned)mini.size_bytes);
+}
+
+TEST(an_unaligned_blob_is_refused)
+{
+    build(16);
+    for (unsigned shift = 1; shift < 4; shift++) {
+        uint8_t *copy = malloc(mini.size_bytes + 4);
+        ql_scene_t scene;
+
+        if (copy == NULL) {
+            exit(2);
+        }
+        memcpy(copy + shift, mini.blob, mini.size_bytes);
+        CHECK(open_copy(&scene, copy + shift, mini.size_bytes) == QL_ERR_ALIGN,
+                "off by %u", shift);
+        free(copy);
+    }
+}
+
+/* What a flip of one bit of byte i must be called. */
+static bool right_status(size_t i, ql_status_t status)
+{
+    if (i < 4) {
+        return status == QL_ERR_MAGIC;
+    }
+    if (i < 8) {
+        return status == QL_ERR_VERSION;
+    }
+    if (i < 12) { /* longer, shorter, or no multiple of 4 */
+        return status == QL_ERR_TRUNCATED || status == QL_ERR_RANGE ||
+               status == QL_ERR_CHECKSUM;
+    }
+    return status == QL_ERR_CHECKSUM;
+}
+
+TEST(any_flipped_bit_is_refused_with_the_right_status)
+{
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        uint8_t *copy;
+
+        build(bits);
+        copy = copy_of(mini.size_bytes);
+        for (size_t i = 0; i < 8 * mini.size_bytes; i++) {
+            ql_scene_t scene;
+            ql_status_t status;
+
+            copy[i / 8] ^= (uint8_t)(1u << i % 8);
+            status = open_copy(&scene, copy, mini.size_bytes);
+            CHECK(right_status(i / 8, status), "bit %u of byte %u: status %d",
+                    (unsigned)(i % 8), (unsigned)(i / 8), status);
+            copy[i / 8] ^= (uint8_t)(1u << i % 8);
+        }
+        free(copy);
+    }
+    NOTE("%u bits", 8 * (unsigned)mini.size_bytes);
+}
+
+TEST(a_feature_of_tomorrow_is_named_unknown)
+{
+    uint8_t *copy;
+    ql_scene_t scene;
+
+    build(16);
+    copy = copy_of(mini.size_bytes);
+    copy[19] |= 0x80; /* bit 31 of features */
+    repair(copy, mini.size_bytes);
+    CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_ERR_FEATURE,
+            "status %d", open_copy(&scene, copy, mini.size_bytes));
+    CHECK(strcmp(ql_blob_missing(copy), "unknown") == 0, "it is \"%s\"",
+            ql_blob_missing(copy));
+    free(copy);
+}
+
+TEST(a_deeper_tree_than_the_stack_is_refused)
+{
+    uint8_t *copy;
+    ql_scene_t scene;
+
+    build(16);
+    copy = copy_of(mini.size_bytes);
+    copy[20] = QL_CFG_BVH_STACK + 1;
+    repair(copy, mini.size_bytes);
+    CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_ERR_CAPACITY,
+            "status %d", open_copy(&scene, copy, mini.size_bytes));
+    free(copy);
+}
+
+/* ---- Damage that the checksum does not show ---------------------------- */
+
+static unsigned long accepted, refused;
+
+/* Open, and if it opens render every kind of line: corner pixels, all light.
+ * The sanitizers watch; here only the end of it is checked. */
+static void try_damaged(const uint8_t *copy, size_t size)
+{
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+    ql_scene_t scene;
+    ql_render_t render;
+
+    if (open_copy(&scene, copy, size) != QL_OK) {
+        refused++;
+        return;
+    }
+    accepted++;
+    settings.spp = 2;
+    settings.bounces = 3;
+    settings.seed = (uint32_t)accepted;
+    if (ql_render_init(&render, &scene, &settings) == QL_OK) {
+        const uint16_t right = (uint16_t)(render.settings.width - 1);
+        const uint16_t bottom = (uint16_t)(render.settings.height - 1);
+        uint8_t pixel[3];
+        const ql_output_t output = {QL_FORMAT_RGB888, pixel};
+        ql_sum_t sum = {{0, 0, 0}};
+
+        ql_render_pixel(&render, 0, 0, 0, 2, &sum);
+        ql_render_pixel(&render, right, bottom, 0, 2, &sum);
+        ql_render_pixel(&render, right / 2, bottom / 2, 0, 2, &sum);
+        ql_render_encode(&render, 0, 0, &sum, 6, &output, 1);
+    }
+}
+
+TEST(any_flipped_bit_with_the_crc_repaired_stays_inside)
+{
+    accepted = refused = 0;
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        build(bits);
+        for (size_t i = 0; i < 8 * mini.size_bytes; i++) {
+            uint8_t *copy = copy_of(mini.size_bytes);
+
+            copy[i / 8] ^= (uint8_t)(1u << i % 8);
+            if (i / 8 < 12 || i / 8 >= 16) {
+                repair(copy, mini.size_bytes);
+            }
+            try_damaged(copy, mini.size_bytes);
+            free(copy);
+        }
+    }
+    CHECK(accepted > 0 && refused > 0, "%lu opened, %lu refused", accepted,
+            refused);
+    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+}
+
+/* Replace a few bytes, words or runs; interesting values more often. */
+static void damage(uint8_t *copy, size_t size)
+{
+    static const uint8_t favourites[] = {0, 1, 0x7f, 0x80, 0xff, 3, 16, 64};
+    const unsigned places = 1 + stats_random_below(&state, 8);
+
+    for (unsigned i = 0; i < places; i++) {
+        const size_t first = 16,
+                     at = first + stats_random_below(&state, size - first);
+        const size_t run = 1 + stats_random_below(&state, 4);
+        const bool favourite = stats_random_below(&state, 2) != 0;
+        const uint8_t value = favourites[stats_random_below(&state, 8)];
+
+        for (size_t k = at; k < at + run && k < size; k++) {
+            copy[k] = favourite ? value : (uint8_t)stats_random(&state);
+        }
+    }
+}
+
+TEST(random_damage_with_the_crc_repaired_stays_inside)
+{
+    accepted = refused = 0;
+    state = 1;
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        build(bits);
+        for (unsigned i = 0; i < DAMAGED; i++) {
+            uint8_t *copy = copy_of(mini.size_bytes);
+
+            damage(copy, mini.size_bytes);
+            repair(copy, mini.size_bytes);
+            try_damaged(copy, mini.size_bytes);
+            free(copy);
+        }
+    }
+    CHECK(accepted > 0 && refused > 0, "%lu opened, %lu refused", accepted,
+            refused);
+    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+}
+
+/* Aimed at what indices and counts lead to: every 16-bit field in turn takes
+ * every nasty value. */
+TEST(nasty_values_in_every_field_stay_inside)
+{
+    static const uint16_t values[] = {0, 1, 2, 3, 4, 7, 8, 15, 16, 17, 0x7fff,
+            0x8000, 0x8001, 0xfffe, 0xffff};
+
+    accepted = refused = 0;
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        build(bits);
+        for (size_t at = 16; at + 2 <= mini.size_bytes; at += 2) {
+            for (size_t v = 0; v < sizeof values / sizeof values[0]; v++) {
+                uint8_t *copy = copy_of(mini.size_bytes);
+
+                copy[at] = (uint8_t)(values[v] & 0xffu);
+                copy[at + 1] = (uint8_t)(values[v] >> 8);
+                repair(copy, mini.size_bytes);
+                try_damaged(copy, mini.size_bytes);
+                free(copy);
+            }
+        }
+    }
+    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+}
+
+TEST(a_tree_that_doubles_back_is_refused)
+{
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        uint8_t *copy;
+        const ql_blob_header_t *header;
+        ql_scene_t scene;
+
+        build(bits);
+        copy = copy_of(mini.size_bytes);
+        header = (const ql_blob_header_t *)(void *)copy;
+        /* every second link is copied over the first: the larger half of
+         * each pair would be walked twice */
+        for (uint32_t i = 0; i < QL_LE32(header->pairs.count); i++) {
+            uint8_t *pair = copy + QL_LE32(header->pairs.offset) +
+                            i * (bits == 16 ? 32 : 24);
+
+            if (bits == 16) {
+                memcpy(pair + 12, pair + 28, 4);
+            } else {
+                pair[7] = (uint8_t)((pair[7] >> 4) * 17u);
+                memcpy(pair + 20, pair + 22, 2);
+            }
+        }
+        repair(copy, mini.size_bytes);
+        CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_ERR_RANGE,
+                "%u-bit nodes: status %d", bits,
+                open_copy(&scene, copy, mini.size_bytes));
+        free(copy);
+    }
+}
+
+/* Put a 32-bit field where the blob has one. */
+static void put32(uint8_t *at, uint32_t value)
+{
+    for (unsigned i = 0; i < 4; i++) {
+        at[i] = (uint8_t)(value >> 8 * i);
+    }
+}
+
+/* 1/|n| with any mantissa and exponent, whatever the triangle is. */
+TEST(any_packed_normal_stays_inside)
+{
+    static const uint32_t mantissas[] = {
+            0x80000000u, 0xa0000000u, 0xc0000000u, 0xe0000000u, 0xffffffe0u};
+
+    accepted = refused = 0;
+    build(16);
+    for (unsigned i = 0; i < 32 * 5 * 20; i++) {
+        uint8_t *copy = copy_of(mini.size_bytes);
+        const ql_blob_header_t *header = (const ql_blob_header_t *)(void *)copy;
+        uint8_t *tri = copy + QL_LE32(header->triangles.offset);
+
+        for (uint32_t k = 0; k < QL_LE32(header->triangles.count); k++) {
+            put32(tri + k * sizeof(ql_blob_tri_t) + 8,
+                    mantissas[i / 32 % 5] | i % 32);
+        }
+        repair(copy, mini.size_bytes);
+        try_damaged(copy, mini.size_bytes);
+        free(copy);
+    }
+    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+}
+
+/* 1/|e1 x e2| of a triangle as it lies in a blob, packed; 0 without area. */
+static uint32_t inverse_of(const uint8_t *vertices, const uint8_t *tri)
+{
+    double v[3][3], n[3], m;
+    int e;
+
+    for (unsigned i = 0; i < 9; i++) {
+        const unsigned index = tri[2 * (i / 3)] | (unsigned)tri[2 * (i / 3) + 1]
+                                                          << 8;
+        const uint8_t *at = vertices + 6 * index + 2 * (i % 3);
+
+        v[i / 3][i % 3] = at[0] | at[1] << 8;
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        const unsigned i = (k + 1) % 3, j = (k + 2) % 3;
+
+        n[k] = (v[1][i] - v[0][i]) * (v[2][j] - v[0][j]) -
+               (v[1][j] - v[0][j]) * (v[2][i] - v[0][i]);
+    }
+    m = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(m > 0)) {
+        return 0;
+    }
+    m = floor(ldexp(frexp(1 / m, &e), 27) + 0.5);
+    if (m >= 134217728.0) {
+        m /= 2;
+        e++;
+    }
+    return (uint32_t)m << 5 | (uint32_t)(1 - e);
+}
+
+/* Any camera within the limits of its fields, and any corners. */
+TEST(any_camera_and_any_triangles_stay_inside)
+{
+    accepted = refused = 0;
+    state = 2;
+    for (unsigned i = 0; i < DAMAGED; i++) {
+        uint8_t *copy;
+        const ql_blob_header_t *header;
+        uint8_t *camera, *vertex, *tri;
+
+        if (i % (DAMAGED / 4) == 0) {
+            build(i % (DAMAGED / 2) == 0 ? 16 : 8);
+        }
+        copy = copy_of(mini.size_bytes);
+        header = (const ql_blob_header_t *)(void *)copy;
+        camera = copy + QL_LE32(header->camera.offset);
+        vertex = copy + QL_LE32(header->vertices.offset);
+        tri = copy + QL_LE32(header->triangles.offset);
+        for (unsigned k = 0; k < 27; k++) {
+            const unsigned shift = stats_random_below(&state, 31);
+            const uint32_t size = (uint32_t)1 << shift;
+            const uint32_t value = stats_random_below(&state, 8) == 0
+                                           ? size
+                                           : stats_random_below(&state, size);
+
+            /* low words of the wide fields keep what they have */
+            if (k >= 18 || k % 2 == 1) {
+                put32(camera + 4 * k,
+                        stats_random_below(&state, 2) ? value : 0u - value);
+            }
+        }
+        for (uint32_t k = 0; k < 3 * QL_LE32(header->vertices.count); k++) {
+            if (stats_random_below(&state, 8) == 0) {
+                const uint32_t c =
+                        stats_random_below(&state, 3)
+                                ? 8 + stats_random_below(&state, 32752)
+                                : 32759;
+
+                vertex[2 * k] = (uint8_t)(c & 0xffu);
+                vertex[2 * k + 1] = (uint8_t)(c >> 8);
+            }
+        }
+        for (uint32_t k = 0; k < QL_LE32(header->triangles.count); k++) {
+            put32(tri + 12 * k + 8, inverse_of(vertex, tri + 12 * k));
+        }
+        repair(copy, mini.size_bytes);
+        try_damaged(copy, mini.size_bytes);
+        free(copy);
+    }
+    CHECK(accepted > DAMAGED / 2, "%lu opened, %lu refused", accepted, refused);
+    NOTE("%lu opened, %lu refused", accepted, refused);
+}
+
+TEST(every_status_has_a_text)
+{
+#define CHECK_TEXT(name, number, text)                                         \
+    CHECK(strcmp(ql_status_text(name), text) == 0 && (name) == (number),       \
+            "status %d", name);
+    QL_STATUS_LIST(CHECK_TEXT)
+    CHECK(strcmp(ql_status_text((ql_status_t)-99), "unknown status") == 0,
+            "of -99: %s", ql_status_text((ql_status_t)-99));
+}
+
+int main(int argc, char **argv)
+{
+    TEST_BEGIN("unit/test_blob", argc, argv);
+    RUN(a_good_blob_opens);
+    RUN(a_blob_cut_at_any_byte_is_truncated);
+    RUN(an_unaligned_blob_is_refused);
+    RUN(any_flipped_bit_is_refused_with_the_right_status);
+    RUN(a_feature_of_tomorrow_is_named_unknown);
+    RUN(a_deeper_tree_than_the_stack_is_refused);
+    RUN(any_flipped_bit_with_the_crc_repaired_stays_inside);
+    RUN(random_damage_with_the_crc_repaired_stays_inside);
+    RUN(nasty_values_in_every_field_stay_inside);
+    RUN(any_packed_normal_stays_inside);
+    RUN(any_camera_and_any_triangles_stay_inside);
+    RUN(a_tree_that_doubles_back_is_refused);
+    RUN(every_status_has_a_text);
+    return TEST_END();
+}

@@ -1,0 +1,239 @@
+/* test_real.c - reciprocals and roots within their bounds, densely sampled */
+/* SPDX-License-Identifier: MIT */
+
+#include <math.h>
+
+#include "math/ql_real.h"
+#include "ql_nasty.h"
+#include "ql_stats.h"
+#include "ql_test.h"
+
+/* Odd, so the mantissas that are tried differ in all their low bits. */
+enum { STRIDE = 61 };
+
+#define ULP         (1 / 4294967296.0) /* of u0.32 */
+#define RSQRT_ERROR (QL_CFG_PRECISION == 0 ? 0x1p-15 : 0x1p-28)
+
+/* ---- Mantissas --------------------------------------------------------- */
+
+static double recip_worst;
+
+static void check_recip(uint32_t m)
+{
+    const uint32_t r = ql_recip_m(m);
+    const double error = fabs((double)r - ldexp(1, 63) / m);
+
+    recip_worst = fmax(recip_worst, error);
+    CHECK(error <= 4, "ql_recip_m(%08lx) = %08lx, off by %.2f ulp",
+            (unsigned long)m, (unsigned long)r, error);
+    CHECK(r >= 0x80000000u, "ql_recip_m(%08lx) = %08lx lacks its top bit",
+            (unsigned long)m, (unsigned long)r);
+}
+
+/* Where errors peak: both sides of each boundary of the table, and the ends. */
+static void around_boundaries(void (*check)(uint32_t), uint32_t lowest)
+{
+    for (uint64_t cell = lowest; cell <= 0x100000000u; cell += 0x1000000u) {
+        for (uint32_t i = 0; i < 2000; i++) {
+            if (cell + i <= 0xffffffffu) {
+                check((uint32_t)(cell + i));
+            }
+            if (cell > lowest + i) {
+                check((uint32_t)(cell - 1 - i));
+            }
+        }
+    }
+}
+
+TEST(reciprocal_of_a_mantissa_is_within_4_ulp)
+{
+    recip_worst = 0;
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += STRIDE) {
+        check_recip((uint32_t)m);
+    }
+    around_boundaries(check_recip, 0x80000000u);
+    NOTE("worst %.2f ulp", recip_worst);
+}
+
+static double rsqrt_worst;
+
+static void check_rsqrt(uint32_t m)
+{
+    const uint32_t r = ql_rsqrt_m(m);
+    const double exact = ldexp(1, 47) / sqrt(m);
+    const double error = fabs(r / exact - 1);
+
+    rsqrt_worst = fmax(rsqrt_worst, error);
+    CHECK(error <= RSQRT_ERROR, "ql_rsqrt_m(%08lx) = %08lx, off by %.3g",
+            (unsigned long)m, (unsigned long)r, error);
+}
+
+TEST(reciprocal_root_of_a_mantissa_is_within_its_bound)
+{
+    rsqrt_worst = 0;
+    for (uint64_t m = 0x40000000u; m <= 0xffffffffu; m += STRIDE) {
+        check_rsqrt((uint32_t)m);
+    }
+    around_boundaries(check_rsqrt, 0x40000000u);
+    NOTE("worst %.2e, bound %.2e", rsqrt_worst, RSQRT_ERROR);
+}
+
+/* ---- Square root ------------------------------------------------------- */
+
+static double sqrt_worst;
+
+static void check_sqrt(uint32_t x)
+{
+    const uint32_t r = ql_sqrt_uq32(x);
+    const double exact = sqrt(x * ULP);
+    const double error = fabs(r * ULP - exact);
+
+    sqrt_worst = fmax(sqrt_worst, error);
+    CHECK(error <= exact * RSQRT_ERROR + 2 * ULP,
+            "ql_sqrt_uq32(%08lx) = %08lx, off by %.3g", (unsigned long)x,
+            (unsigned long)r, error);
+}
+
+TEST(square_root_is_within_its_bound)
+{
+    sqrt_worst = 0;
+    for (uint32_t x = 0; x < 1000000; x++) {
+        check_sqrt(x);
+        check_sqrt(0xffffffffu - x);
+    }
+    for (uint64_t x = 0; x <= 0xffffffffu; x += STRIDE) {
+        check_sqrt((uint32_t)x);
+    }
+    for (unsigned k = 0; k < 32; k++) {
+        check_sqrt((uint32_t)1 << k);
+        check_sqrt(((uint32_t)1 << k) - 1);
+    }
+    NOTE("worst %.2e, absolute", sqrt_worst);
+}
+
+TEST(square_root_of_zero_is_zero)
+{
+    CHECK(ql_sqrt_uq32(0) == 0, "got %lu", (unsigned long)ql_sqrt_uq32(0));
+}
+
+/* ---- Reals ------------------------------------------------------------- */
+
+/* m in [2^31, 2^32), or zero with nothing else set. */
+static bool normal(ql_real_t r)
+{
+    return r.m >= 0x80000000u || r.m == 0;
+}
+
+static void check_from(uint64_t n)
+{
+    const ql_real_t r = ql_real_from_u64(n);
+    const int e = r.e;
+    uint64_t back;
+
+    CHECK(normal(r) && (r.m == 0) == (n == 0), "of %llx",
+            (unsigned long long)n);
+    if (n == 0) {
+        return;
+    }
+    /* cut, never raised; what was cut is below 2^-31 of the number */
+    back = e >= 0 ? (uint64_t)r.m << e : (uint64_t)r.m >> -e;
+    CHECK(back <= n && n - back <= n >> 31 &&
+                    (e >= 0 || back << -e == (uint64_t)r.m),
+            "%llx became %08lx 2^%d", (unsigned long long)n, (unsigned long)r.m,
+            e);
+}
+
+TEST(whole_numbers_become_reals_cut_below_one_ulp)
+{
+    uint64_t state = 1;
+
+    for (uint64_t n = 0; n < 1000000; n++) {
+        check_from(n);
+        check_from(UINT64_MAX - n);
+    }
+    for (unsigned k = 0; k < 64; k++) {
+        check_from((uint64_t)1 << k);
+        check_from(((uint64_t)1 << k) - 1);
+        check_from(((uint64_t)1 << k) + 1);
+    }
+    for (long i = 0; i < 1000000; i++) {
+        const uint64_t n = stats_random(&state);
+
+        check_from(n >> (stats_random(&state) & 63u));
+    }
+}
+
+static void check_mul(uint32_t a, uint32_t b)
+{
+    const ql_real_t x = {a, 5}, y = {b, -70};
+    const ql_real_t r = ql_real_mul(x, y);
+    const uint64_t exact = (uint64_t)a * b;
+    const int shift = r.e - (5 - 70);
+
+    if (a == 0 || b == 0) {
+        CHECK(r.m == 0, "%08lx * %08lx is not zero", (unsigned long)a,
+                (unsigned long)b);
+    } else {
+        const uint64_t back = (uint64_t)r.m << (shift == 32 ? 32 : 31);
+
+        CHECK((shift == 31 || shift == 32) && r.m >= 0x80000000u &&
+                        back <= exact && exact - back < exact >> 30,
+                "%08lx * %08lx = %08lx 2^%d", (unsigned long)a,
+                (unsigned long)b, (unsigned long)r.m, shift);
+    }
+}
+
+TEST(products_of_reals_are_cut_below_two_ulp)
+{
+    uint64_t state = 2;
+
+    for (size_t i = 0; i < NASTY_COUNT; i++) {
+        check_mul(nasty32[i] | 0x80000000u, 0);
+        check_mul(0, nasty32[i] | 0x80000000u);
+        for (size_t j = 0; j < NASTY_COUNT; j++) {
+            check_mul(nasty32[i] | 0x80000000u, nasty32[j] | 0x80000000u);
+        }
+    }
+    check_mul(0, 0);
+    for (long i = 0; i < 2000000; i++) {
+        const uint64_t bits = stats_random(&state);
+
+        check_mul((uint32_t)bits | 0x80000000u,
+                (uint32_t)(bits >> 32) | 0x80000000u);
+    }
+}
+
+TEST(reciprocal_of_a_real_is_normal_and_of_zero_is_zero)
+{
+    const ql_real_t zero = {0, 0};
+    uint64_t state = 3;
+
+    CHECK(ql_real_recip(zero).m == 0, "1/0 has mantissa %08lx",
+            (unsigned long)ql_real_recip(zero).m);
+    for (long i = 0; i < 1000000; i++) {
+        const uint32_t m = (i < 65536 ? (uint32_t)i * 0x8000u + 0x80000000u
+                                      : (uint32_t)stats_random(&state)) |
+                           0x80000000u;
+        const ql_real_t a = {m, (int16_t)(i % 200 - 100)};
+        const ql_real_t r = ql_real_recip(a);
+        const double one = ldexp((double)r.m * a.m, r.e + a.e);
+
+        /* 4 of at least 2^31 */
+        CHECK(r.m >= 0x80000000u && fabs(one - 1) <= 0x1p-29,
+                "1/(%08lx 2^%d) = %08lx 2^%d", (unsigned long)m, a.e,
+                (unsigned long)r.m, r.e);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    TEST_BEGIN("unit/test_real", argc, argv);
+    RUN(reciprocal_of_a_mantissa_is_within_4_ulp);
+    RUN(reciprocal_root_of_a_mantissa_is_within_its_bound);
+    RUN(square_root_is_within_its_bound);
+    RUN(square_root_of_zero_is_zero);
+    RUN(whole_numbers_become_reals_cut_below_one_ulp);
+    RUN(products_of_reals_are_cut_below_two_ulp);
+    RUN(reciprocal_of_a_real_is_normal_and_of_zero_is_zero);
+    return TEST_END();
+}
