@@ -1,0 +1,106 @@
+# Makefile - every command; `make help` lists them
+#
+#   make                        simulator, tools and the picture build/cornell.ppm
+#   make run SCENE=s            any scene on this PC: build/s.ppm
+#   make run BOARD=b SCENE=s    the same on an emulated board: build/s-b.ppm
+#   make test                   everything
+#
+# SCENE is a name in tests/scenes or the path of any .scene file. The product
+# needs a C99 compiler and make; tools/setup.sh installs what the tests need.
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+
+SCENE ?= cornell
+scene_file := $(if $(filter %.scene,$(SCENE)),$(SCENE),tests/scenes/$(SCENE).scene)
+override SCENE := $(basename $(notdir $(SCENE)))
+
+CC ?= cc
+CFLAGS ?= -O2 -g
+WARN := -Wall -Wextra -Wconversion -Wshadow -Wundef -Wmissing-prototypes
+HOST := -std=c99 -pedantic $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L \
+    -Ifirmware -Itools -Ihal -Itests -I.
+
+core_src := $(wildcard firmware/*/*.c)
+core_hdr := $(wildcard firmware/*.h firmware/*/*.h hal/*.h)
+host_hdr := $(core_hdr) $(wildcard tools/*.h tools/scene/*.h sim/*.h)
+fine := $(core_src:%.c=build/fine/%.o)
+draft := $(core_src:%.c=build/draft/%.o)
+io := $(addprefix build/host/tools/,cli.o image.o png.o deflate.o sums.o \
+    develop.o)
+
+programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff recv)
+
+all: $(programs) build/$(SCENE).ppm ## Build everything for this PC, render the Cornell box
+
+tools: $(programs) ## Build the simulator and the tools
+
+help: ## Show this list
+	@awk 'BEGIN { FS = ":.*## " } /^[a-z0-9-]+:.*## / \
+	    { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+# The core, once for each precision, and everything else of this PC.
+
+build/fine/%.o: %.c $(host_hdr)
+	@mkdir -p $(@D)
+	$(CC) $(HOST) -DQL_CFG_PRECISION=1 -c $< -o $@
+
+build/draft/%.o: %.c $(host_hdr)
+	@mkdir -p $(@D)
+	$(CC) $(HOST) -DQL_CFG_PRECISION=0 -c $< -o $@
+
+build/host/%.o: %.c $(host_hdr)
+	@mkdir -p $(@D)
+	$(CC) $(HOST) -c $< -o $@
+
+link = $(CC) $(CFLAGS) $(filter %.o,$^) -o $@ -lm
+
+build/qlux-lut: build/host/tools/lut_main.o build/host/tools/cli.o
+	$(link)
+
+build/qlux-scene: $(patsubst %.c,build/host/%.o,$(wildcard tools/scene/*.c)) \
+    build/host/tools/cli.o $(fine)
+	$(link)
+
+build/qlux-merge: build/host/tools/merge_main.o $(io) $(fine)
+	$(link)
+
+build/qlux-diff: build/host/tools/diff_main.o $(io) $(fine)
+	$(link)
+
+build/qlux-recv: build/host/tools/recv_main.o $(io) $(fine)
+	$(link)
+
+sim := sim/sim_main.o sim/sim_options.o sim/sim_render.o
+
+build/qlux-sim: $(sim:%=build/fine/%) $(io) $(fine)
+	$(link) -lpthread
+
+build/qlux-sim-draft: $(sim:%=build/draft/%) $(io) $(draft)
+	$(link) -lpthread
+
+# Scenes and pictures.
+
+build/$(SCENE).qlb build/$(SCENE).h &: $(scene_file) build/qlux-scene \
+    $(wildcard $(dir $(scene_file))*.obj $(dir $(scene_file))*.mtl)
+	build/qlux-scene $< -o build/$(SCENE).qlb \
+	    --features build/$(SCENE).h $(SCENE_OPTIONS)
+
+build/$(SCENE).ppm: build/qlux-sim build/$(SCENE).qlb
+	build/qlux-sim build/$(SCENE).qlb -o $@ --spp 64
+
+run: $(if $(BOARD),run-board,run-pc) ## Render SCENE here, or on an emulated BOARD
+
+run-pc: build/qlux-sim build/$(SCENE).qlb
+	build/qlux-sim build/$(SCENE).qlb -o build/$(SCENE).ppm $(SIM_OPTIONS)
+
+luts: build/qlux-lut ## Regenerate the core's tables
+	build/qlux-lut -o firmware/math/ql_lut_data.c
+
+clean: ## Remove build/
+	rm -rf build
+
+include hal/boards.mk
+include tests/tests.mk tests/bench/bench.mk
+
+.PHONY: all tools help run run-pc luts clean
