@@ -76,18 +76,20 @@ endef
 
 test: ## Run everything, on this PC and on every emulated board
 	@tools/setup.sh
-	@$(MAKE) --no-print-directory test-all
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) test-all
 
 test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san) $(jobs_configs))
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
-test-quick: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
-    $(call programs_of,$(jobs_quick)) ## Unit and tool tests on this PC
+quick := $(call programs_of,$(jobs_quick)) build/test/fine/tools/stream_main
+
+test-quick: $(programs) build/cornell.qlb $(quick) ## Unit and tool tests on this PC
 	$(call run,$(jobs_quick)$(jobs_scripts))
 
-test-known: build/cornell.qlb \
-    $(call programs_of,$(jobs_known)) ## Pictures whose answer is known
+answers := $(call programs_of,$(jobs_known))
+
+test-known: build/cornell.qlb $(answers) ## Pictures whose answer is known
 	$(call run,$(jobs_known))
 
 test-san: $(call programs_of,$(jobs_san)) build/cornell.qlb ## Unit and tool tests under ASan and UBSan

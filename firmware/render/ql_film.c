@@ -21,6 +21,9 @@ void ql_film_add(
     const int shift = scale.e - 7;
     uint64_t add = 0;
 
+    if (value == 0) {
+        return; /* most surfaces emit nothing */
+    }
     if (shift < 0 && shift >= -64) {
         add = ((exact >> (-shift - 1)) + 1) >> 1;
     } else if (shift >= 0 && exact != 0) {

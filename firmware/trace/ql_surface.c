@@ -15,7 +15,7 @@ static int32_t advance(int32_t d, ql_uq30_t t)
 
 unsigned ql_surface_step(ql_vec3_t *p, ql_vec3_t on, ql_vec3_t n)
 {
-    const uint32_t ax = ql_abs32(n.x), ay = ql_abs32(n.y), az = ql_abs32(n.z);
+    uint32_t ax, ay, az;
     ql_vec3_t from_plane;
     int64_t side;
     unsigned steps = 0;
@@ -24,6 +24,12 @@ unsigned ql_surface_step(ql_vec3_t *p, ql_vec3_t on, ql_vec3_t n)
     from_plane.y = p->y - on.y * (1 << QL_POS_BITS);
     from_plane.z = p->z - on.z * (1 << QL_POS_BITS);
     side = ql_vec_dot_n(from_plane, n);
+    if (side > 0) {
+        return 0; /* half of all points */
+    }
+    ax = ql_abs32(n.x);
+    ay = ql_abs32(n.y);
+    az = ql_abs32(n.z);
     while (side <= 0 && steps < QL_SIDE_STEPS_MAX) {
         if (ax >= ay && ax >= az) {
             p->x += n.x < 0 ? -1 : 1;
