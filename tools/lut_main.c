@@ -1,9 +1,9 @@
 /* lut_main.c - qlux-lut: write ql_lut_data.c and each table's worst error */
 /* SPDX-License-Identifier: MIT */
 
-/* rsqrt and recip are rounded in integers. The sine and the sRGB curve come
- * from libm, and every entry is proved further from a rounding tie than any
- * libm errs (2^-40 of the entry's range), so every host writes the same. */
+/* rsqrt and recip are rounded in integers. The others come from libm, and
+ * every entry is proved further from a rounding tie than any libm errs (2^-40
+ * of the entry's range), so every host writes the same. */
 
 #include <math.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "cli.h"
 #include "math/ql_lut.h"
 
-#define TIE_MARGIN 1e-4 /* ulp of the entry: libm errs by less than 1e-6 */
+#define TIE_MARGIN 1e-5 /* ulp of the entry: libm errs by less than 2e-6 */
 
 /* Nearest integer of x, refusing to guess near a tie. */
 static long round_far_from_tie(double x)
@@ -77,6 +77,22 @@ static long srgb_entry(unsigned i)
     return round_far_from_tie(255 * 256 * srgb(x));
 }
 
+/* log2 of a reciprocal of the table, u0.32. */
+static long log2_entry(unsigned i)
+{
+    return round_far_from_tie(
+            ldexp(log2(ldexp((double)recip_entry(i), -15)), 32));
+}
+
+/* 1 - 2^(-i / 64), u0.32. */
+static long exp2_entry(unsigned i)
+{
+    if (i == 0) { /* exact */
+        return 0;
+    }
+    return round_far_from_tie(ldexp(1 - exp2(-(double)i / QL_EXP2_CELLS), 32));
+}
+
 /* Worst errors, measured between the entries too. */
 
 static double sin_error(void)
@@ -131,6 +147,28 @@ static double srgb_error(void)
     return worst;
 }
 
+static double log2_error(void)
+{
+    double worst = 0;
+
+    for (unsigned i = 0; i < QL_RECIP_CELLS; i++) {
+        const double exact = log2(ldexp((double)recip_entry(i), -15));
+        worst = fmax(worst, fabs(ldexp((double)log2_entry(i), -32) - exact));
+    }
+    return worst;
+}
+
+static double exp2_error(void)
+{
+    double worst = 0;
+
+    for (unsigned i = 0; i < QL_EXP2_CELLS; i++) {
+        const double exact = 1 - exp2(-(double)i / QL_EXP2_CELLS);
+        worst = fmax(worst, fabs(ldexp((double)exp2_entry(i), -32) - exact));
+    }
+    return worst;
+}
+
 typedef struct {
     const char *type;
     const char *name;
@@ -154,6 +192,12 @@ static const table_t tables[] = {
         {"uint16_t", "ql_lut_srgb", "QL_SRGB_OCTAVES * QL_SRGB_STEPS + 1",
                 QL_SRGB_OCTAVES *QL_SRGB_STEPS + 1, srgb_entry, srgb_error,
                 "sRGB curve, u8.8. Worst error %.2e of 255, interpolated."},
+        {"uint32_t", "ql_lut_log2", "QL_RECIP_CELLS", QL_RECIP_CELLS,
+                log2_entry, log2_error,
+                "log2 of the reciprocals, u0.32. Worst error %.2e, absolute."},
+        {"uint32_t", "ql_lut_exp2", "QL_EXP2_CELLS", QL_EXP2_CELLS, exp2_entry,
+                exp2_error,
+                "1 - 2^-x for x in [0, 1), u0.32. Worst error %.2e, absolute."},
 };
 
 static void write_table(FILE *file, const table_t *table)

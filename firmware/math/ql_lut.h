@@ -28,4 +28,12 @@ extern const uint16_t ql_lut_recip[QL_RECIP_CELLS];
 #define QL_SRGB_STEPS   16
 extern const uint16_t ql_lut_srgb[QL_SRGB_OCTAVES * QL_SRGB_STEPS + 1];
 
+/* log2(ql_lut_recip[i] / 2^15), u0.32. */
+extern const uint32_t ql_lut_log2[QL_RECIP_CELLS];
+
+/* 1 - 2^(-i / QL_EXP2_CELLS), u0.32. */
+#define QL_EXP2_BITS  6
+#define QL_EXP2_CELLS (1 << QL_EXP2_BITS)
+extern const uint32_t ql_lut_exp2[QL_EXP2_CELLS];
+
 #endif

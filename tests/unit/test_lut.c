@@ -64,6 +64,26 @@ TEST(srgb_entries_are_nearest)
     NOTE("%d entries", QL_SRGB_OCTAVES * QL_SRGB_STEPS + 1);
 }
 
+TEST(logarithm_entries_are_nearest)
+{
+    for (unsigned i = 0; i < QL_RECIP_CELLS; i++) {
+        check("ql_lut_log2", i, ql_lut_log2[i],
+                ldexp(log(ldexp(ql_lut_recip[i], -15)) / log(2), 32));
+    }
+    NOTE("%d entries", QL_RECIP_CELLS);
+}
+
+TEST(power_entries_are_nearest)
+{
+    for (unsigned i = 0; i < QL_EXP2_CELLS; i++) {
+        check("ql_lut_exp2", i, ql_lut_exp2[i],
+                ldexp(-expm1(-log(2) * i / QL_EXP2_CELLS), 32));
+    }
+    CHECK(ql_lut_exp2[0] == 0, "it begins with %lu",
+            (unsigned long)ql_lut_exp2[0]);
+    NOTE("%d entries", QL_EXP2_CELLS);
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_lut", argc, argv);
@@ -71,5 +91,7 @@ int main(int argc, char **argv)
     RUN(reciprocal_root_entries_are_nearest);
     RUN(reciprocal_entries_are_nearest);
     RUN(srgb_entries_are_nearest);
+    RUN(logarithm_entries_are_nearest);
+    RUN(power_entries_are_nearest);
     return TEST_END();
 }
