@@ -13,13 +13,14 @@
 
 /* QL_CFG_PRECISION: 0 draft, 1 fine. Fixes the sub-grid bits f of positions
  * and the bits b of directions (QL_POS_BITS, QL_DIR_BITS below); the algorithm
- * is the same. Fine costs about 1.5 times the instructions. */
+ * is the same. A path costs 1.14 times the instructions in fine on a Cortex-M3,
+ * 1.65 times on a Cortex-M0 (make bench). */
 #ifndef QL_CFG_PRECISION
 #define QL_CFG_PRECISION 1
 #endif
 
 /* QL_CFG_NODE16, QL_CFG_NODE8: 0 or 1. Which BVH node widths are built in; at
- * least one. Each costs about 700 bytes of code. */
+ * least one. The second one costs 2,900 bytes of code on a Cortex-M0 (-Os). */
 #ifndef QL_CFG_NODE16
 #define QL_CFG_NODE16 1
 #endif
@@ -34,7 +35,7 @@
 #endif
 
 /* QL_CFG_LIGHTS: 0 or 1. Direct light by points on the emitters; 0 suits only
- * scenes without any. About 1,500 bytes. */
+ * scenes without any. 2,700 bytes of code on a Cortex-M0 (-Os). */
 #ifndef QL_CFG_LIGHTS
 #define QL_CFG_LIGHTS 1
 #endif
@@ -49,7 +50,7 @@
 #define QL_CFG_DIAG 1
 #endif
 
-/* QL_CFG_BVH_STACK: 4 to 64. Deepest BVH that can be traversed; one pointer of
+/* QL_CFG_BVH_STACK: 4 to 64. Deepest BVH that can be traversed; four bytes of
  * stack each. qlux-scene never builds deeper than 32. */
 #ifndef QL_CFG_BVH_STACK
 #define QL_CFG_BVH_STACK 32

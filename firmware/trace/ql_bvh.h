@@ -17,7 +17,7 @@
  * Exact: which triangles are hit. Among them the smallest t wins, of equals the
  * lowest index. Error: t within 2^-29 t + 2^-27 (tests/unit/test_bvh.c), far
  * below an ulp of the hit point.
- * Cost: QL_CFG_BVH_STACK pointers of stack.
+ * Cost: four bytes of stack for each of QL_CFG_BVH_STACK.
  */
 bool ql_bvh_closest_hit(
         const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit);

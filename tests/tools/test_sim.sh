@@ -110,7 +110,7 @@ for cut in 1 3 4 40 87 88 200 $((size / 2)) $((size - 1)); do
     [ $? -eq 2 ] && grep -q cut.qlb err.txt || ok=1
 done
 say a_truncated_scene_is_code_2_at_any_length $ok
-(head -c 300 scene.qlb; printf 'XXXX'; tail -c +305 scene.qlb) >flip.qlb
+(head -c 300 scene.qlb; printf '????'; tail -c +305 scene.qlb) >flip.qlb
 expect a_changed_scene_is_code_2 2 'CRC-32' "$sim" flip.qlb -o a.ppm
 rm -f bad.qlb cut.qlb flip.qlb empty.qlb worse.qlb
 nothing_left bad_input_leaves_nothing

@@ -5,6 +5,7 @@
 
 #include "mini_scene.h"
 #include "ql_stats.h"
+#include "ql_points.h"
 #include "ql_test.h"
 #include "sample/ql_warp.h"
 #include "trace/ql_bvh.h"
@@ -16,30 +17,6 @@ enum {
     TRIANGLES = 100000,
     STEPS_MAX = 2
 };
-
-#define ONE (1 << QL_POS_BITS)
-
-static uint64_t state;
-
-static ql_vec3_t vec(int32_t x, int32_t y, int32_t z)
-{
-    const ql_vec3_t v = {x, y, z};
-
-    return v;
-}
-
-static int32_t random_in(int32_t low, int32_t high)
-{
-    return low + (int32_t)stats_random_below(
-                         &state, (uint64_t)((int64_t)high - low + 1));
-}
-
-static ql_vec3_t random_position(void)
-{
-    const int32_t max = QL_GRID_MAX * ONE;
-
-    return vec(random_in(0, max), random_in(0, max), random_in(0, max));
-}
 
 static int32_t clamp(int32_t v)
 {
