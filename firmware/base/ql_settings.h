@@ -14,32 +14,56 @@ typedef enum {
     QL_SAMPLER_SOBOL   /* Owen-scrambled Sobol points, padded in pairs */
 } ql_sampler_kind_t;
 
-/* How light that comes straight from emitters is estimated. */
+/* How light that comes straight from emitters is estimated. Every strategy but
+ * NONE has the same mean. */
 typedef enum {
-    QL_DIRECT_NONE, /* not at all; emitters are still seen */
-    QL_DIRECT_AREA  /* by points on the emitters */
+    QL_DIRECT_NONE,        /* not at all; emitters are still seen */
+    QL_DIRECT_AREA,        /* by points on the emitters */
+    QL_DIRECT_HEMISPHERE,  /* by uniform directions that may hit one */
+    QL_DIRECT_COSINE,      /* by directions proportional to the cosine */
+    QL_DIRECT_SOLID_ANGLE, /* by directions towards the emitters */
+    QL_DIRECT_MIS          /* by points and directions, balance heuristic */
 } ql_direct_t;
 
-/* How light that comes by way of another surface is estimated. */
+/* How light that comes by way of another surface is estimated: by directions
+ * with which density per solid angle. All but NONE have the same mean. */
 typedef enum {
-    QL_INDIRECT_NONE,  /* not at all */
-    QL_INDIRECT_COSINE /* by directions proportional to the cosine */
+    QL_INDIRECT_NONE,    /* not at all */
+    QL_INDIRECT_COSINE,  /* proportional to the cosine */
+    QL_INDIRECT_UNIFORM, /* uniform on the hemisphere */
+    QL_INDIRECT_BRDF     /* proportional to BRDF and cosine */
 } ql_indirect_t;
+
+/* Which emitters a vertex asks. */
+typedef enum {
+    QL_LIGHTS_POWER,  /* one, by power */
+    QL_LIGHTS_ALL,    /* every one: the sum over the sources */
+    QL_LIGHTS_UNIFORM /* one, each with the same chance */
+} ql_light_choice_t;
 
 typedef struct {
     uint16_t width; /* px, 1..16384; 0: the scene's own */
     uint16_t height;
-    uint32_t spp;     /* samples a pixel, 1..2^24 */
-    uint32_t seed;    /* any */
-    uint8_t bounces;  /* indirect reflections, 0..64 */
-    uint8_t sampler;  /* ql_sampler_kind_t */
-    uint8_t direct;   /* ql_direct_t */
-    uint8_t indirect; /* ql_indirect_t */
+    uint32_t spp;          /* samples a pixel, 1..2^24 */
+    uint32_t seed;         /* any */
+    uint8_t bounces;       /* indirect reflections, 0..64 */
+    uint8_t sampler;       /* ql_sampler_kind_t */
+    uint8_t direct;        /* ql_direct_t */
+    uint8_t indirect;      /* ql_indirect_t */
+    uint8_t lights;        /* ql_light_choice_t */
+    uint8_t light_samples; /* samples an emitter asked, 1..255 */
+    uint8_t roulette;      /* 0 or 1: Russian roulette */
+#if QL_CFG_ADAPTIVE
+    uint16_t error_q16; /* u0.16: a pixel stops at this standard error, a part
+                           of its mean; 0: it takes all its samples */
+#endif
 } ql_settings_t;
 
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \
-        0, 0, 16, 0, 4, QL_SAMPLER_SOBOL, QL_DIRECT_AREA, QL_INDIRECT_COSINE   \
+        .spp = 16, .bounces = 4, .sampler = QL_SAMPLER_SOBOL,                  \
+        .direct = QL_DIRECT_AREA, .indirect = QL_INDIRECT_BRDF,                \
+        .lights = QL_LIGHTS_POWER, .light_samples = 1                          \
     }
 
 #endif

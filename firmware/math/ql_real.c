@@ -1,4 +1,4 @@
-/* ql_real.c - reciprocal, reciprocal square root, square root */
+/* ql_real.c - reciprocal, square roots, sums of real numbers */
 /* SPDX-License-Identifier: MIT */
 
 #include "math/ql_real.h"
@@ -35,6 +35,87 @@ uint32_t ql_rsqrt_m(uint32_t m)
         r = next < 0x80000000u ? next << 1 : 0xffffffffu;
     }
     return r;
+}
+
+ql_real_t ql_real_times(ql_real_t a, ql_real_t b)
+{
+    return ql_real_mul(a, b);
+}
+
+ql_real_t ql_real_over(ql_real_t a, ql_real_t b)
+{
+    return ql_real_mul(a, ql_real_recip(b));
+}
+
+/* m 2^-shift, or 0. */
+static uint32_t shifted(ql_real_t a, int shift)
+{
+    return shift < 32 ? a.m >> shift : 0;
+}
+
+ql_real_t ql_real_add(ql_real_t a, ql_real_t b)
+{
+    const ql_real_t most = a.m == 0 || (b.m != 0 && b.e > a.e) ? b : a;
+    const ql_real_t least = a.m == 0 || (b.m != 0 && b.e > a.e) ? a : b;
+    ql_real_t r = most;
+
+    if (least.m != 0) {
+        r.m += shifted(least, most.e - least.e);
+        if (r.m < most.m) { /* the sum is 2^32 more */
+            r.m = 0x80000000u | r.m >> 1;
+            r.e = (int16_t)(r.e + 1);
+        }
+    }
+    return r;
+}
+
+ql_real_t ql_real_sub(ql_real_t a, ql_real_t b)
+{
+    ql_real_t r = {0, 0};
+    uint32_t rest;
+    unsigned zeros;
+
+    if (b.m == 0) {
+        return a;
+    }
+    if (a.m == 0 || a.e < b.e) {
+        return r;
+    }
+    rest = shifted(b, a.e - b.e);
+    if (a.m > rest) {
+        rest = a.m - rest;
+        zeros = ql_clz32(rest);
+        r.m = rest << zeros;
+        r.e = (int16_t)(a.e - (int16_t)zeros);
+    }
+    return r;
+}
+
+ql_real_t ql_real_sqrt(ql_real_t a)
+{
+    ql_real_t root = {0, 0};
+    uint32_t m, r, s, twice;
+    int64_t rest;
+
+    if (a.m == 0) {
+        return root;
+    }
+    /* a = m 2^-32 2^k, k even; the bit that may be cut is 2^-31 of m */
+    m = a.m >> (a.e & 1);
+    root.e = (int16_t)((a.e + 32 + (a.e & 1)) / 2 - 32);
+    r = ql_rsqrt_m(m);      /* 2^31 / sqrt(m 2^-32), 2^-15 or better */
+    s = ql_mulhi_u32(m, r); /* sqrt(m 2^-32) 2^31 <= 2^31 + 2^16 */
+    /* a - s^2 in 2^-62: below 2^48.1 in size, for 2^62 has an error of 2^-14;
+     * 2^-20 of it times r 2^-32 is the correction times 2^11 */
+    rest = ql_i64(((uint64_t)m << 30) - (uint64_t)s * s);
+    twice = (s << 1) +
+            (uint32_t)ql_asr32(
+                    ql_mulhi_su32((int32_t)ql_asr64(rest, 20), r) + 512, 10);
+    /* twice the root of [1/4, 1): in [2^31, 2^32], or just outside */
+    root.m = twice >= 0x80000000u ? twice
+             : s >= 0x60000000u   ? 0xffffffffu
+                                  : 0x80000000u;
+    return root;
 }
 
 ql_uq32_t ql_sqrt_uq32(ql_uq32_t x)

@@ -80,6 +80,52 @@ QL_INLINE ql_real_t ql_real_recip(ql_real_t a)
     return r;
 }
 
+/* The midpoint (2u + 1) / 2^33 of u's interval; exact for u below 2^31, cut to
+ * u / 2^32 above. */
+QL_INLINE ql_real_t ql_real_midpoint(ql_uq32_t u)
+{
+    const unsigned zeros = ql_clz32(u);
+    ql_real_t r = {u, -32};
+
+    if (zeros > 0) {
+        r.m = (u << 1 | 1u) << (zeros - 1);
+        r.e = (int16_t)(-32 - (int16_t)zeros);
+    }
+    return r;
+}
+
+/* a as u0.32, rounded down; cut below 1. */
+QL_INLINE ql_uq32_t ql_real_to_uq32(ql_real_t a)
+{
+    const int16_t shift = (int16_t)(-32 - a.e);
+
+    if (shift < 0) {
+        return a.m == 0 ? 0 : 0xffffffffu;
+    }
+    return shift < 32 ? a.m >> shift : 0;
+}
+
+/* a b as ql_real_mul() has it: a call, for code that is longer than it is hot.
+ */
+ql_real_t ql_real_times(ql_real_t a, ql_real_t b);
+
+/* a / b; 0 for b = 0. Error: relative, 2^-28. */
+ql_real_t ql_real_over(ql_real_t a, ql_real_t b);
+
+/* a + b. Error: relative, 2^-30, downwards. */
+ql_real_t ql_real_add(ql_real_t a, ql_real_t b);
+
+/* a - b; 0 where b >= a. Error: an ulp of 2^-31 of a. */
+ql_real_t ql_real_sub(ql_real_t a, ql_real_t b);
+
+/* Square root; 0 of 0.
+ *
+ * Error: relative, 2^-29, both precisions (tests/unit/test_real.c).
+ * Cost:  ql_rsqrt_m(), two multiplications, one more to 64 bits.
+ * From:  Heron's rule, s + (a - s^2) / (2 s), without dividing.
+ */
+ql_real_t ql_real_sqrt(ql_real_t a);
+
 /* Square root of a fraction.
  *
  *   x       u0.32

@@ -1,4 +1,4 @@
-/* ql_trig.c - sine and cosine by table and Taylor's series */
+/* ql_trig.c - sine and cosine by table; sine, arc tangent by polynomials */
 /* SPDX-License-Identifier: MIT */
 
 #include "math/ql_trig.h"
@@ -58,4 +58,75 @@ void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
         *cosine = s;
         break;
     }
+}
+
+/* (1 - sin(y) / y) / v of v = y^2 / 4, u0.32, alternating signs. Interpolated
+ * at Chebyshev's points of [0, (pi/4)^2]; off by 2^-33. */
+static const uint32_t sine_series[] = {
+        0xaaaaaaaau, 0x222221fbu, 0x0340320bu, 0x002e32d2u, 0x00019db1u};
+
+/* (1 - atan(a) / a) / z of z = a^2, likewise on [0, 1]; off by 2^-31. */
+static const uint32_t atan_series[] = {0x55555554u, 0x33333192u, 0x249206a7u,
+        0x1c6d94a5u, 0x172251c8u, 0x12fd217du, 0x0ebf57c8u, 0x09cfd3d7u,
+        0x04ee4b52u, 0x0196cc73u, 0x003d5c80u};
+
+/* x (1 - z (c0 - z (c1 - z (c2 - ...)))). The coefficients fall faster than z
+ * lets them grow, so every difference is positive. */
+static ql_real_t odd_series(
+        ql_real_t x, ql_uq32_t z, const uint32_t *series, unsigned count)
+{
+    ql_real_t r = {0, -32};
+    uint32_t sum = 0;
+
+    while (count-- > 0) {
+        sum = series[count] - ql_mulhi_u32(z, sum);
+    }
+    r.m = ~ql_mulhi_u32(z, sum); /* 0.63 or more of 2^32 */
+    return ql_real_times(x, r);
+}
+
+ql_real_t ql_real_sin(ql_real_t x)
+{
+    const ql_real_t pi = {0xc90fdaa2u, -30};
+    ql_real_t v;
+
+    if (x.m == 0) {
+        return x;
+    }
+    if (x.e > -31 || (x.e == -31 && x.m > pi.m)) { /* above pi / 2 */
+        x = ql_real_sub(pi, x);
+    }
+    v = ql_real_times(x, x);
+    v.e = (int16_t)(v.e - 2);
+    return odd_series(x, ql_real_to_uq32(v), sine_series,
+            sizeof sine_series / sizeof sine_series[0]);
+}
+
+ql_real_t ql_real_atan(ql_real_t a)
+{
+    const ql_real_t half_pi = {0xc90fdaa2u, -31};
+    const bool steep = a.m != 0 && a.e > -32; /* a >= 1 */
+    ql_real_t angle;
+
+    if (steep) {
+        a = ql_real_recip(a);
+    }
+    angle = odd_series(a, ql_real_to_uq32(ql_real_times(a, a)), atan_series,
+            sizeof atan_series / sizeof atan_series[0]);
+    return steep ? ql_real_sub(half_pi, angle) : angle;
+}
+
+ql_turn32_t ql_atan2(int32_t y, int32_t x)
+{
+    const ql_real_t inv_2pi = {0xa2f9836eu, -34};
+    const uint32_t ay = ql_abs32(y), ax = ql_abs32(x);
+    const bool steep = ay > ax;
+    const ql_real_t ratio = ql_real_over(ql_real_from_u64(steep ? ax : ay),
+            ql_real_from_u64(steep ? ay : ax));
+    ql_turn32_t turn =
+            ql_real_to_uq32(ql_real_times(ql_real_atan(ratio), inv_2pi));
+
+    turn = steep ? 0x40000000u - turn : turn;
+    turn = x < 0 ? 0x80000000u - turn : turn;
+    return y < 0 ? 0u - turn : turn;
 }

@@ -22,26 +22,6 @@ static ql_real_t real_of(uint32_t m, int16_t e)
     return r;
 }
 
-/* Midpoint (2u + 1) / 2^33 of u's interval, cut to 32 bits if it has 33. */
-static ql_real_t midpoint(ql_uq32_t u)
-{
-    const unsigned zeros = ql_clz32(u);
-
-    if (zeros == 0) {
-        return real_of(u, -32);
-    }
-    return real_of(
-            (u << 1 | 1u) << (zeros - 1), (int16_t)(-32 - (int16_t)zeros));
-}
-
-/* floor(a 2^32) of a in [0, 1). */
-static ql_uq32_t to_uq32(ql_real_t a)
-{
-    const int16_t shift = (int16_t)(-32 - a.e);
-
-    return shift < 32 ? a.m >> shift : 0;
-}
-
 /* Square root of a in [0, 1), u0.32, cut below 1. Relative error that of
  * ql_rsqrt_m() and 3 ulp. */
 static ql_uq32_t root(ql_real_t a)
@@ -75,7 +55,7 @@ static ql_vec3_t polar(ql_uq32_t rho, ql_turn32_t azimuth, ql_q29_t z)
 /* The direction with 1 - z = s < 1. */
 static ql_vec3_t off_axis(ql_real_t s, ql_turn32_t azimuth)
 {
-    const ql_uq32_t fixed = to_uq32(s);
+    const ql_uq32_t fixed = ql_real_to_uq32(s);
     /* (2 - s) 2^31 in [2^31, 2^32), rounded down so that the sine is <= 1 */
     const ql_real_t rest = real_of(~(fixed >> 1), -31);
     const ql_q29_t z = ONE_Q29 - (int32_t)(((fixed >> 2) + 1) >> 1);
@@ -85,7 +65,7 @@ static ql_vec3_t off_axis(ql_real_t s, ql_turn32_t azimuth)
 
 ql_vec3_t ql_warp_uniform_hemisphere(ql_uq32_t u1, ql_uq32_t u2)
 {
-    return off_axis(midpoint(~u1), u2); /* 1 - midpoint(u1), exactly */
+    return off_axis(ql_real_midpoint(~u1), u2); /* 1 - midpoint, exactly */
 }
 
 ql_vec3_t ql_warp_naive_hemisphere(ql_uq32_t u1, ql_uq32_t u2)
@@ -120,9 +100,10 @@ ql_real_t ql_warp_naive_hemisphere_pdf(ql_vec3_t w)
 ql_vec3_t ql_warp_cosine_lobe(ql_uq32_t u1, ql_uq32_t u2)
 {
     /* at least 2^-16.5, so z > 0; u0.32 to s2.29, to nearest */
-    const ql_uq32_t z = root(midpoint(~u1));
+    const ql_uq32_t z = root(ql_real_midpoint(~u1));
 
-    return polar(root(midpoint(u1)), u2, (int32_t)(((z >> 2) + 1) >> 1));
+    return polar(
+            root(ql_real_midpoint(u1)), u2, (int32_t)(((z >> 2) + 1) >> 1));
 }
 
 ql_uq32_t ql_warp_cosine_lobe_pdf(ql_q29_t z)
@@ -143,7 +124,7 @@ static ql_real_t minus_log2(ql_real_t u, ql_real_t w)
     ql_real_t log;
 
     if (w.e < -39) { /* w < 2^-8 */
-        const ql_uq32_t x = to_uq32(w);
+        const ql_uq32_t x = ql_real_to_uq32(w);
         const uint32_t x2 = ql_mulhi_u32(x, x);
         /* (1 + x/2 + x^2/3 + x^3/4) 2^31; the next term is below 2^-34 */
         const uint32_t sum31 = 0x80000000u + (x >> 2) +
@@ -212,7 +193,7 @@ static ql_real_t decay(ql_real_t y)
     if (y.e < -37) { /* y < 2^-6: keeps the bits of a tiny y */
         const ql_real_t x = ql_real_mul(y, real_of(LN2_UQ32, -32));
 
-        return ql_real_mul(x, real_of(decay_over_x(to_uq32(x)), -32));
+        return ql_real_mul(x, real_of(decay_over_x(ql_real_to_uq32(x)), -32));
     }
     whole = split(y, &f);
     s = whole < 32 ? ~(~decay_of_fraction(f) >> whole) : 0xffffffffu;
@@ -237,7 +218,7 @@ static ql_real_t half_to_the(ql_real_t y)
         }
         m = ~decay_of_fraction(f);
     } else {
-        m = ~to_uq32(decay(y));
+        m = ~ql_real_to_uq32(decay(y));
     }
     return real_of(
             m < 0x80000000u ? 0x80000000u : m, (int16_t)(-32 - (int16_t)whole));
@@ -260,9 +241,10 @@ ql_real_t ql_lobe_inverse(ql_uq16_t power)
 ql_vec3_t ql_warp_power_lobe(
         ql_real_t inverse, ql_uq32_t u1, ql_uq32_t u2, ql_uq31_t *s)
 {
-    const ql_real_t log = minus_log2(midpoint(u1), midpoint(~u1));
+    const ql_real_t log =
+            minus_log2(ql_real_midpoint(u1), ql_real_midpoint(~u1));
     const ql_real_t exact = decay(ql_real_mul(log, inverse));
-    const ql_uq32_t fixed = to_uq32(exact);
+    const ql_uq32_t fixed = ql_real_to_uq32(exact);
 
     *s = (fixed >> 1) + (fixed & 1u); /* to nearest */
     return off_axis(exact, u2);
@@ -288,21 +270,29 @@ ql_real_t ql_warp_power_lobe_pdf(ql_uq16_t power, ql_uq31_t s)
     return ql_real_mul(scale, half_to_the(ql_real_mul(m, minus_log2(u, w))));
 }
 
-ql_vec3_t ql_warp_cone(ql_uq31_t s_max, ql_uq32_t u1, ql_uq32_t u2)
+ql_real_t ql_cone_of_sphere(ql_real_t ratio2)
 {
-    ql_real_t most = ql_real_from_u64(s_max);
+    ql_real_t root, sum;
 
-    QL_ASSERT(s_max <= QL_UQ31_ONE);
-    most.e = (int16_t)(most.e - 31);
-    return off_axis(ql_real_mul(most, midpoint(u1)), u2);
+    if (ratio2.m == 0 || ratio2.e > -32) {
+        return real_of(ratio2.m == 0 ? 0 : 0x80000000u, -31);
+    }
+    /* (1 - r2) 2^32: exact where it is small, for there r2 has 32 bits */
+    root = ql_real_from_u64(((uint64_t)1 << 32) - ql_real_to_uq32(ratio2));
+    root.e = (int16_t)(root.e - 32);
+    root = ql_real_sqrt(root);
+    sum = ql_real_add(real_of(0x80000000u, -31), root);
+    return ql_real_mul(ratio2, ql_real_recip(sum));
 }
 
-ql_real_t ql_warp_cone_pdf(ql_uq31_t s_max)
+ql_vec3_t ql_warp_cone(ql_real_t s_max, ql_uq32_t u1, ql_uq32_t u2)
 {
-    ql_real_t most = ql_real_from_u64(s_max);
+    return off_axis(ql_real_mul(s_max, ql_real_midpoint(u1)), u2);
+}
 
-    most.e = (int16_t)(most.e - 31);
-    return ql_real_mul(ql_real_recip(most), real_of(INV_2PI, -34));
+ql_real_t ql_warp_cone_pdf(ql_real_t s_max)
+{
+    return ql_real_mul(ql_real_recip(s_max), real_of(INV_2PI, -34));
 }
 
 /* Low word of floor(x 2^-29 + 1/2): wraps for what is no unit vector. */

@@ -11,15 +11,21 @@
 #include "math/ql_fx.h"
 #include "base/ql_settings.h"
 
-/* Pairs of dimensions. Those of bounce k are QL_DIM_BOUNCE(k) + the name. */
+/* Pairs of dimensions. Those of bounce k are QL_DIM_BOUNCE(k) + the name, and
+ * those of the next samples of emitters are QL_DIMS_A_SAMPLE apart (modulo
+ * 2^32). */
 enum {
     QL_DIM_PIXEL = 0,       /* where in the pixel */
     QL_DIM_LENS = 1,        /* where on the lens */
     QL_DIM_LIGHT_POINT = 0, /* where on the emitter */
     QL_DIM_DIRECTION = 1,   /* which way to go on */
-    QL_DIM_LIGHT_PICK = 2,  /* which emitter; whether to go on */
-    QL_DIMS_A_BOUNCE = 3
+    QL_DIM_LIGHT_PICK = 2,  /* which emitter */
+    QL_DIMS_A_BOUNCE = 3,
+    QL_DIM_CHOICE = 256,     /* which lobe; whether to go on */
+    QL_DIM_LOOK = 257,       /* which way to look for emitters */
+    QL_DIM_LOOK_CHOICE = 258 /* by which lobe */
 };
+#define QL_DIMS_A_SAMPLE 512u
 #define QL_DIM_BOUNCE(k) (2u + QL_DIMS_A_BOUNCE * (uint32_t)(k))
 
 typedef struct {
