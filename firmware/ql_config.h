@@ -45,6 +45,59 @@
 #define QL_CFG_TWO_SIDED 1
 #endif
 
+/* What a scene may be made of beyond diffuse triangles, each 0 or 1; a scene
+ * without it pays nothing for it. Bytes of code on a Cortex-M0: make size.
+ *   QL_CFG_SPHERES  spheres, as surfaces and as lights
+ *   QL_CFG_SMOOTH   normals interpolated between corners
+ *   QL_CFG_PHONG    the normalised Phong lobe, Ks with Ns
+ *   QL_CFG_MIRROR   perfect mirrors
+ *   QL_CFG_GLASS    smooth dielectrics
+ *   QL_CFG_SKY      light from all around; needs QL_CFG_LIGHTS
+ *   QL_CFG_SKY_MAP  a picture of it; needs QL_CFG_SKY and QL_CFG_TABLES
+ *   QL_CFG_TABLES   tabulated distributions
+ *   QL_CFG_LENS     depth of field */
+#ifndef QL_CFG_SPHERES
+#define QL_CFG_SPHERES 1
+#endif
+#ifndef QL_CFG_SMOOTH
+#define QL_CFG_SMOOTH 1
+#endif
+#ifndef QL_CFG_PHONG
+#define QL_CFG_PHONG 1
+#endif
+#ifndef QL_CFG_MIRROR
+#define QL_CFG_MIRROR 1
+#endif
+#ifndef QL_CFG_GLASS
+#define QL_CFG_GLASS 1
+#endif
+#ifndef QL_CFG_SKY
+#define QL_CFG_SKY 1
+#endif
+#ifndef QL_CFG_SKY_MAP
+#define QL_CFG_SKY_MAP 1
+#endif
+#ifndef QL_CFG_TABLES
+#define QL_CFG_TABLES 1
+#endif
+#ifndef QL_CFG_LENS
+#define QL_CFG_LENS 1
+#endif
+
+/* QL_CFG_STRATEGIES: 0 or 1. Every estimator of ql_settings_t; with 0 only the
+ * default ones: direct light by area or none, emitters chosen by power, one
+ * sample, directions proportional to the cosine or the BRDF, no roulette. */
+#ifndef QL_CFG_STRATEGIES
+#define QL_CFG_STRATEGIES 1
+#endif
+
+/* QL_CFG_ADAPTIVE: 0 or 1. Pixels that stop once their error is small enough:
+ * error_q16 of ql_settings_t, which does not exist without. 1,600 bytes of code
+ * on a Cortex-M0 (-Os). */
+#ifndef QL_CFG_ADAPTIVE
+#define QL_CFG_ADAPTIVE 1
+#endif
+
 /* QL_CFG_DIAG: 0 or 1. Count rays, paths and saturations in ql_diag_t. */
 #ifndef QL_CFG_DIAG
 #define QL_CFG_DIAG 1
@@ -96,8 +149,26 @@
 #if QL_CFG_DIAG != 0 && QL_CFG_DIAG != 1
 #error "QL_CFG_DIAG: use 0 or 1"
 #endif
+#if (QL_CFG_SPHERES | QL_CFG_SMOOTH | QL_CFG_PHONG | QL_CFG_MIRROR |           \
+        QL_CFG_GLASS | QL_CFG_SKY | QL_CFG_SKY_MAP | QL_CFG_TABLES |           \
+        QL_CFG_LENS | QL_CFG_STRATEGIES) &                                     \
+        ~1
+#error "QL_CFG_SPHERES .. QL_CFG_STRATEGIES: use 0 or 1 for each"
+#endif
+#if QL_CFG_SKY && !QL_CFG_LIGHTS
+#error "QL_CFG_SKY needs QL_CFG_LIGHTS: set it to 1"
+#endif
+#if QL_CFG_SKY_MAP && !(QL_CFG_SKY && QL_CFG_TABLES)
+#error "QL_CFG_SKY_MAP needs QL_CFG_SKY and QL_CFG_TABLES: set them to 1"
+#endif
+#if QL_CFG_ADAPTIVE != 0 && QL_CFG_ADAPTIVE != 1
+#error "QL_CFG_ADAPTIVE: use 0 or 1"
+#endif
 #if QL_CFG_ASSERT != 0 && QL_CFG_ASSERT != 1
 #error "QL_CFG_ASSERT: use 0 or 1"
 #endif
+
+/* Materials that are more than diffuse. */
+#define QL_GLOSS (QL_CFG_PHONG || QL_CFG_MIRROR || QL_CFG_GLASS)
 
 #endif

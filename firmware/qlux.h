@@ -21,8 +21,8 @@
  *
  * A picture is a pure function of (blob, settings): compiler, word size, byte
  * order, order of lines and threads change no bit of it. The core owns no
- * memory; a ql_render_t is read-only while rendering except for its counters,
- * so give each thread its own copy. */
+ * memory; a ql_render_t is changed while rendering, and as before but for its
+ * counters afterwards, so give each thread its own copy. */
 
 #ifndef QLUX_H
 #define QLUX_H

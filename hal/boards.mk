@@ -1,8 +1,11 @@
 # boards.mk - the firmware of a board: build it, run it in its emulator, size it
 #
-# SIZE, SPP, SEED, BOUNCES, SAMPLER, INTERLACE choose the picture; PRECISION is
-# draft or fine. SCENE is a name: the main Makefile makes build/SCENE.qlb and
-# build/SCENE.h of it.
+# SIZE, SPP, SEED, BOUNCES, SAMPLER, DIRECT, INDIRECT, LIGHTS, LIGHT_SAMPLES,
+# ROULETTE (0 or 1), INTERLACE choose the picture, in the simulator's words;
+# PRECISION is draft or fine. STRATEGIES=1 builds every estimator in, which is
+# the default only if one is asked for. ERROR=E stops a pixel at a relative error
+# of E; only then is the code for it built in. SCENE is a name: the main Makefile
+# makes build/SCENE.qlb and build/SCENE.h of it.
 
 BOARDS := $(notdir $(patsubst %/,%,$(wildcard hal/boards/*/)))
 PRECISION ?= draft
@@ -18,9 +21,25 @@ SPP ?= $(BOARD_SPP)
 SEED ?= 0
 BOUNCES ?= 4
 SAMPLER ?= sobol
+DIRECT ?= area
+INDIRECT ?= brdf
+LIGHTS ?= power
+LIGHT_SAMPLES ?= 1
+ROULETTE ?= 0
 INTERLACE ?= 1
 board_choice := --size $(SIZE) --spp $(SPP) --seed $(SEED) \
-    --bounces $(BOUNCES) --sampler $(SAMPLER)
+    --bounces $(BOUNCES) --sampler $(SAMPLER) --direct $(DIRECT) \
+    --indirect $(INDIRECT) --lights $(LIGHTS) \
+    --light-samples $(LIGHT_SAMPLES) $(if $(filter 1,$(ROULETTE)),--roulette) \
+    $(if $(ERROR),--error $(ERROR))
+STRATEGIES ?= $(if $(filter-out none area,$(DIRECT))$(filter \
+    uniform,$(INDIRECT))$(filter-out power,$(LIGHTS))$(filter-out \
+    1,$(LIGHT_SAMPLES))$(filter 1,$(ROULETTE)),1,0)
+# as the simulator rounds it
+board_error = $(if $(ERROR),-DQL_APP_ERROR_Q16=$(shell awk \
+    'BEGIN { printf "%d", $(ERROR) * 65536 + 0.5 }'))
+# mis -> QL_PREFIX_MIS, solid-angle -> QL_PREFIX_SOLID_ANGLE
+board_word = QL_$(1)_$(shell echo $(2) | tr a-z- A-Z_)
 
 # EMULATED=1 leaves the emulator when done; a real board would hang on that.
 EMULATED ?= 0
@@ -44,7 +63,13 @@ board_cflags := $(BOARD_CPU) $(OPT) -std=c99 -pedantic -ffreestanding \
     -DQL_APP_HEIGHT=$(word 2,$(subst x, ,$(SIZE))) \
     -DQL_APP_SPP=$(SPP) -DQL_APP_SEED=$(SEED)u -DQL_APP_BOUNCES=$(BOUNCES) \
     -DQL_APP_SAMPLER=QL_SAMPLER_$(if $(filter random,$(SAMPLER)),RANDOM,SOBOL) \
-    -DQL_APP_INTERLACE=$(INTERLACE) $(CFLAGS_BOARD)
+    -DQL_APP_DIRECT=$(call board_word,DIRECT,$(DIRECT)) \
+    -DQL_APP_INDIRECT=$(call board_word,INDIRECT,$(INDIRECT)) \
+    -DQL_APP_LIGHTS=$(call board_word,LIGHTS,$(LIGHTS)) \
+    -DQL_APP_LIGHT_SAMPLES=$(LIGHT_SAMPLES) -DQL_APP_ROULETTE=$(ROULETTE) \
+    -DQL_APP_INTERLACE=$(INTERLACE) -DQL_CFG_STRATEGIES=$(STRATEGIES) \
+    -DQL_CFG_ADAPTIVE=$(if $(ERROR),1,0) $(board_error) \
+    $(CFLAGS_BOARD)
 
 firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
 

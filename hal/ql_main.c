@@ -7,7 +7,11 @@
 
 /* QL_APP_WIDTH, QL_APP_HEIGHT: px. QL_APP_SPP: samples a pixel. QL_APP_SEED:
  * any. QL_APP_BOUNCES: indirect reflections. QL_APP_SAMPLER: ql_sampler_kind_t.
- * QL_APP_INTERLACE: px between lines of the first pass, a power of two. */
+ * QL_APP_DIRECT, QL_APP_INDIRECT, QL_APP_LIGHTS: ql_direct_t, ql_indirect_t,
+ * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter asked.
+ * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR_Q16: relative error of a pixel times
+ * 2^16, 0 for all samples. QL_APP_INTERLACE: px between lines of the first
+ * pass, a power of two. */
 #ifndef QL_APP_WIDTH
 #define QL_APP_WIDTH 64
 #endif
@@ -26,6 +30,24 @@
 #ifndef QL_APP_SAMPLER
 #define QL_APP_SAMPLER QL_SAMPLER_SOBOL
 #endif
+#ifndef QL_APP_DIRECT
+#define QL_APP_DIRECT QL_DIRECT_AREA
+#endif
+#ifndef QL_APP_INDIRECT
+#define QL_APP_INDIRECT QL_INDIRECT_BRDF
+#endif
+#ifndef QL_APP_LIGHTS
+#define QL_APP_LIGHTS QL_LIGHTS_POWER
+#endif
+#ifndef QL_APP_LIGHT_SAMPLES
+#define QL_APP_LIGHT_SAMPLES 1
+#endif
+#ifndef QL_APP_ROULETTE
+#define QL_APP_ROULETTE 0
+#endif
+#ifndef QL_APP_ERROR_Q16
+#define QL_APP_ERROR_Q16 0
+#endif
 #ifndef QL_APP_INTERLACE
 #define QL_APP_INTERLACE 1
 #endif
@@ -36,8 +58,13 @@ int main(void)
             QL_APP_WIDTH, QL_PORT_PANEL_WIDTH, QL_PORT_PANEL_FORMAT)];
     static const ql_app_t app = {
             {QL_APP_WIDTH, QL_APP_HEIGHT, QL_APP_SPP, QL_APP_SEED,
-                    QL_APP_BOUNCES, QL_APP_SAMPLER, QL_DIRECT_AREA,
-                    QL_INDIRECT_COSINE},
+                    QL_APP_BOUNCES, QL_APP_SAMPLER, QL_APP_DIRECT,
+                    QL_APP_INDIRECT, QL_APP_LIGHTS, QL_APP_LIGHT_SAMPLES,
+                    QL_APP_ROULETTE,
+#if QL_CFG_ADAPTIVE
+                    QL_APP_ERROR_Q16
+#endif
+            },
             QL_APP_INTERLACE,
             work,
             sizeof work,

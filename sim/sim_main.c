@@ -81,6 +81,42 @@ static void describe(sums_t *sums, const ql_render_t *render)
     f[SUMS_SAMPLER] = s->sampler;
     f[SUMS_DIRECT] = s->direct;
     f[SUMS_INDIRECT] = s->indirect;
+    f[SUMS_LIGHTS] = s->lights;
+    f[SUMS_LIGHT_SAMPLES] = s->light_samples;
+    f[SUMS_ROULETTE] = s->roulette;
+}
+
+/* How many samples a pixel took. */
+static uint32_t count_of(const sums_t *sums, size_t pixel)
+{
+    return sums->counts != NULL
+                   ? sums->counts[pixel]
+                   : sums_row_count(
+                             sums, (uint32_t)(pixel / sums->field[SUMS_WIDTH]));
+}
+
+static void write_map(const sums_t *sums, cli_out_t *out)
+{
+    image_t image;
+
+    image_new(&image, sums->field[SUMS_WIDTH], sums->field[SUMS_HEIGHT], true);
+    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++) {
+        image.floats[i] = (float)count_of(sums, i / 3); /* exact: <= 2^24 */
+    }
+    image_write(&image, IMAGE_PFM, out);
+    image_free(&image);
+}
+
+/* Of the pixels in a range of rows. */
+static double mean_count(const sums_t *sums, const sums_range_t *rows)
+{
+    const size_t width = sums->field[SUMS_WIDTH];
+    double sum = 0;
+
+    for (size_t i = width * rows->row_first; i < width * rows->row_end; i++) {
+        sum += count_of(sums, i);
+    }
+    return sum / (double)(width * (rows->row_end - rows->row_first));
 }
 
 static void print_stats(const sim_stats_t *s)
@@ -102,8 +138,9 @@ static void print_stats(const sim_stats_t *s)
 static void run(sim_options_t *o, const ql_render_t *render)
 {
     const bool has_picture = o->picture != NULL, has_save = o->save != NULL;
+    const bool has_map = o->map != NULL;
     sums_range_t range, clash;
-    cli_out_t picture, save;
+    cli_out_t picture, save, map;
     sim_stats_t stats;
     sums_t sums;
 
@@ -121,6 +158,9 @@ static void run(sim_options_t *o, const ql_render_t *render)
     if (has_save) {
         cli_out_open(&save, o->save);
     }
+    if (has_map) {
+        cli_out_open(&map, o->map);
+    }
     if (!sim_render(&sums, render, &range, o->threads, o->quiet, &stats)) {
         cli_fail(CLI_IO, "interrupted; nothing was written");
     }
@@ -134,8 +174,19 @@ static void run(sim_options_t *o, const ql_render_t *render)
     if (has_picture) {
         cli_out_commit(&picture);
     }
+    if (has_map) {
+        write_map(&sums, &map);
+        cli_out_commit(&map);
+    }
+    if (stats.saturated > 0 && !o->stats) {
+        cli_warn("%" PRIu64 " contributions were cut at their limit",
+                stats.saturated);
+    }
     if (o->stats) {
         print_stats(&stats);
+        if (sums.counts != NULL) {
+            printf("samples-per-pixel: %.3f\n", mean_count(&sums, &range));
+        }
     }
     sums_free(&sums);
 }

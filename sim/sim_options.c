@@ -23,16 +23,24 @@ static const char help[] =
         "  --spp N            samples a pixel, 1 to 2^24                16\n"
         "  --seed N           of the random numbers, 0 to 2^32-1         0\n"
         "  --sampler S        random or sobol                        sobol\n"
-        "  --direct D         light from emitters: area or none       area\n"
-        "  --indirect I       light from surfaces: cosine or none   cosine\n"
+        "  --direct D         light from emitters: hemisphere, cosine, area,\n"
+        "                     solid-angle, mis or none                area\n"
+        "  --indirect I       light from surfaces, by directions: uniform,\n"
+        "                     cosine, brdf or none                    brdf\n"
         "  --bounces N        indirect reflections, 0 to 64              4\n"
-        "  --lights L         how to choose an emitter: power        power\n"
-        "  --light-samples N  emitters asked a bounce: 1                 1\n"
+        "  --lights L         emitters asked: all, or one, uniform or by\n"
+        "                     power                                  power\n"
+        "  --light-samples N  of each emitter asked, 1 to 255            1\n"
+        "  --roulette         end paths at random, by their throughput\n"
+        "  --error E          end a pixel at this standard error, a part of\n"
+        "                     its mean below 1, after 32 to --spp samples; of\n"
+        "                     independent samples: sobol errs less    0 (off)\n"
         "  --format F         display: rgb888, rgb565le, rgb565be, gray8 or\n"
         "                     gray4, widened to 8-bit RGB           rgb888\n"
         "  --rows A:B         only rows A to B-1, the rest black\n"
         "  --samples A:B      only samples A to B-1 of each pixel\n"
         "  --save-sums FILE   exact sums, for qlux-merge (.qls)\n"
+        "  --samples-map FILE how many samples each pixel took (.pfm)\n"
         "  --threads N        1 to 1024                    one a processor\n"
         "  --stats            print counts of paths and rays\n"
         "  --quiet            no progress bar\n"
@@ -44,8 +52,7 @@ static const char help[] =
         "Example:\n"
         "  qlux-sim cornell.qlb -o cornell.png --size 256x256 --spp 64\n";
 
-/* Every word of the language. What this version's core has comes first, in the
- * order of its enums. */
+/* The words of the language, in the order of the core's enums. */
 static const char *const samplers[] = {"random", "sobol", NULL};
 static const char *const directs[] = {
         "none", "area", "hemisphere", "cosine", "solid-angle", "mis", NULL};
@@ -53,17 +60,20 @@ static const char *const indirects[] = {
         "none", "cosine", "uniform", "brdf", NULL};
 static const char *const lights[] = {"power", "all", "uniform", NULL};
 
-/* Index of one of the names, of which the core has the first few. */
-static uint8_t take_supported(const char *option, const char *text,
-        const char *const *names, int supported)
+/* A part of 1, to the nearest 2^-16. */
+static uint16_t take_part(const char *option, const char *text)
 {
-    const int i = cli_choice(option, text, names);
+    const char *value = cli_text(option, text);
+    char *end;
+    const double part = strtod(value, &end);
 
-    if (i >= supported) {
-        cli_fail(CLI_USAGE, "'%s %s' is not supported by this version", option,
-                text);
+    if (end == value || *end != '\0' || !(part >= 0 && part < 1) ||
+            (part > 0 && part * 65536 < 0.5) || part * 65536 >= 65535.5) {
+        cli_fail(CLI_USAGE,
+                "'%s %s': expected 0, or a part from 0.00001 to 0.9999", option,
+                value);
     }
-    return (uint8_t)i;
+    return (uint16_t)(part * 65536 + 0.5); /* at most 65535 */
 }
 
 static void take_size(ql_settings_t *s, const char *option, const char *text)
@@ -106,18 +116,19 @@ static bool take_setting(sim_options_t *o, const char *option, const char *text)
     } else if (strcmp(option, "--bounces") == 0) {
         s->bounces = (uint8_t)cli_number(option, text, 0, QL_BOUNCES_MAX);
     } else if (strcmp(option, "--sampler") == 0) {
-        s->sampler = take_supported(option, text, samplers, 2);
+        s->sampler = (uint8_t)cli_choice(option, text, samplers);
     } else if (strcmp(option, "--direct") == 0) {
-        s->direct = take_supported(option, text, directs, 2);
+        s->direct = (uint8_t)cli_choice(option, text, directs);
     } else if (strcmp(option, "--indirect") == 0) {
-        s->indirect = take_supported(option, text, indirects, 2);
+        s->indirect = (uint8_t)cli_choice(option, text, indirects);
     } else if (strcmp(option, "--lights") == 0) {
-        take_supported(option, text, lights, 1);
+        s->lights = (uint8_t)cli_choice(option, text, lights);
     } else if (strcmp(option, "--light-samples") == 0) {
-        if (cli_number(option, text, 1, 255) != 1) {
-            cli_fail(CLI_USAGE, "'%s %s' is not supported by this version",
-                    option, text);
-        }
+        s->light_samples = (uint8_t)cli_number(option, text, 1, 255);
+#if QL_CFG_ADAPTIVE
+    } else if (strcmp(option, "--error") == 0) {
+        s->error_q16 = take_part(option, text);
+#endif
     } else {
         return false;
     }
@@ -132,6 +143,11 @@ static bool take_task(sim_options_t *o, const char *option, const char *text)
         o->kind = image_kind(option, text);
     } else if (strcmp(option, "--save-sums") == 0) {
         o->save = cli_text(option, text);
+    } else if (strcmp(option, "--samples-map") == 0) {
+        o->map = cli_text(option, text);
+        if (image_kind(option, text) != IMAGE_PFM) {
+            cli_fail(CLI_USAGE, "'%s %s': expected a .pfm name", option, text);
+        }
     } else if (strcmp(option, "--format") == 0) {
         o->format = (ql_format_t)cli_choice(option, text, develop_formats);
     } else if (strcmp(option, "--rows") == 0) {
@@ -149,7 +165,9 @@ static bool take_task(sim_options_t *o, const char *option, const char *text)
 /* Options without a value; likewise. */
 static bool take_flag(sim_options_t *o, const char *option)
 {
-    if (strcmp(option, "--stats") == 0) {
+    if (strcmp(option, "--roulette") == 0) {
+        o->settings.roulette = 1;
+    } else if (strcmp(option, "--stats") == 0) {
         o->stats = true;
     } else if (strcmp(option, "--quiet") == 0) {
         o->quiet = true;
@@ -175,6 +193,21 @@ static unsigned processors(void)
     return n < 1 ? 1 : n > THREADS_MAX ? THREADS_MAX : (unsigned)n;
 }
 
+/* A pixel that ends by itself holds no range of samples. */
+static void check_error(const sim_options_t *o)
+{
+#if QL_CFG_ADAPTIVE
+    if (o->settings.error_q16 != 0 &&
+            (o->save != NULL || o->samples.end != 0)) {
+        cli_fail(CLI_USAGE, "'--error' goes with neither '--samples' nor "
+                            "'--save-sums': pixels end at samples of their "
+                            "own");
+    }
+#else
+    (void)o;
+#endif
+}
+
 /* What one option alone cannot tell. */
 static void check_together(sim_options_t *o, bool has_spp, bool has_format)
 {
@@ -187,6 +220,7 @@ static void check_together(sim_options_t *o, bool has_spp, bool has_format)
     if (has_format && (o->picture == NULL || o->kind == IMAGE_PFM)) {
         cli_fail(CLI_USAGE, "'--format' needs '-o' with a .ppm or .png name");
     }
+    check_error(o);
     if (o->samples.end == 0) {
         o->samples.end = o->settings.spp;
     } else if (!has_spp) {

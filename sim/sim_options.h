@@ -17,6 +17,7 @@ typedef struct {
     const char *scene;      /* path of the blob */
     const char *picture;    /* -o, or NULL */
     const char *save;       /* --save-sums, or NULL */
+    const char *map;        /* --samples-map, or NULL */
     image_kind_t kind;      /* of the picture */
     ql_format_t format;     /* of the display */
     ql_settings_t settings; /* width and height 0: the scene's own */

@@ -15,10 +15,11 @@
 typedef struct {
     pthread_mutex_t lock;
     ql_sum_t *pixels;
+    uint32_t *counts; /* NULL: each pixel takes every sample of the range */
     const ql_render_t *render;
     sums_range_t range;
     uint32_t next_row;
-    uint64_t done; /* samples */
+    uint64_t done; /* samples, or what an early end made unnecessary */
     uint64_t total;
     bool quiet;
     sim_stats_t stats;
@@ -55,6 +56,22 @@ static void report(job_t *job, ql_diag_t *diag, uint32_t *samples)
     *samples = 0;
 }
 
+#if QL_CFG_ADAPTIVE
+/* A row whose pixels end by themselves; each counts as done entirely. */
+static void render_row_adaptive(job_t *job, ql_render_t *render, uint32_t y)
+{
+    const uint32_t width = render->settings.width;
+
+    for (uint32_t x = 0; x < width && !cli_interrupted(); x++) {
+        const size_t i = (size_t)width * y + x;
+        uint32_t spp = render->settings.spp;
+        job->counts[i] = ql_render_adaptive(
+                render, (uint16_t)x, (uint16_t)y, job->pixels + i);
+        report(job, &render->diag, &spp);
+    }
+}
+#endif
+
 /* A row, in steps short enough to stop soon. Sums are exact, so steps change
  * no bit. */
 static void render_row(job_t *job, ql_render_t *render, uint32_t y)
@@ -86,6 +103,12 @@ static void *work(void *shared)
     uint32_t y;
 
     while ((y = take_row(job)) < job->range.row_end) {
+#if QL_CFG_ADAPTIVE
+        if (job->counts != NULL) {
+            render_row_adaptive(job, &render, y);
+            continue;
+        }
+#endif
         render_row(job, &render, y);
     }
     return NULL;
@@ -118,7 +141,13 @@ bool sim_render(sums_t *sums, const ql_render_t *render,
 
     memset(&job, 0, sizeof job);
     pthread_mutex_init(&job.lock, NULL);
+#if QL_CFG_ADAPTIVE
+    if (render->settings.error_q16 != 0) {
+        sums_own_counts(sums);
+    }
+#endif
     job.pixels = sums->pixels;
+    job.counts = sums->counts;
     job.render = render;
     job.range = *range;
     job.next_row = range->row_first;

@@ -16,11 +16,13 @@ typedef struct {
     double seconds;
 } sim_stats_t;
 
-/* Add the samples of a range to the sums.
+/* Add the samples of a range to the sums; or, if the settings have an
+ * error_q16, let each pixel take as many as it needs, the number kept in
+ * sums->counts.
  *
  *   sums     -  its pixels; ranges are the caller's business
  *   render   -  from ql_render_init()
- *   range    -  within the picture
+ *   range    -  within the picture; with an error_q16 all samples
  *   threads  -  1 or more; changes no bit
  *   quiet    -  no progress bar
  *   stats    -  out: what happened

@@ -3,23 +3,33 @@
 
 #include "render/ql_line.h"
 
+#include "render/ql_adaptive.h"
 #include "render/ql_path.h"
+
+/* Does a build without QL_CFG_STRATEGIES have what is asked for? */
+static bool is_default(const ql_settings_t *s)
+{
+    return s->direct <= QL_DIRECT_AREA && s->indirect != QL_INDIRECT_UNIFORM &&
+           s->lights == QL_LIGHTS_POWER && s->light_samples == 1 &&
+           s->roulette == 0;
+}
 
 static bool settings_in_range(const ql_settings_t *s)
 {
     return s->width >= 1 && s->width <= QL_IMAGE_MAX && s->height >= 1 &&
            s->height <= QL_IMAGE_MAX && s->spp >= 1 && s->spp <= QL_SPP_MAX &&
            s->bounces <= QL_BOUNCES_MAX && s->sampler <= QL_SAMPLER_SOBOL &&
-           s->direct <= QL_DIRECT_AREA && s->indirect <= QL_INDIRECT_COSINE;
+           s->direct <= QL_DIRECT_MIS && s->indirect <= QL_INDIRECT_BRDF &&
+           s->lights <= QL_LIGHTS_UNIFORM && s->light_samples >= 1 &&
+           s->roulette <= 1 && (QL_CFG_STRATEGIES || is_default(s));
 }
 
 ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
         const ql_settings_t *settings)
 {
-    static const ql_render_t zero;
     ql_settings_t s = *settings;
 
-    *render = zero;
+    *render = (ql_render_t){0};
     if (s.width == 0) {
         s.width = QL_LE16(scene->header->image_width);
     }
@@ -28,7 +38,7 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
     }
     if (!settings_in_range(&s) ||
             !ql_camera_init(&render->camera, scene, s.width, s.height)) {
-        *render = zero;
+        *render = (ql_render_t){0};
         return QL_ERR_SETTINGS;
     }
     render->scene = scene;
@@ -45,22 +55,64 @@ void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
     const ql_settings_t *s = &render->settings;
     ql_camera_pixel_t pixel;
     ql_sampler_t sampler;
+    const ql_path_t path = {render->scene, s, &sampler, sum, &render->diag};
 
     QL_ASSERT(x < s->width && y < s->height);
     QL_ASSERT(first <= QL_SPP_MAX && count <= QL_SPP_MAX - first);
     ql_camera_pixel(&pixel, &render->camera, x, y);
     ql_sampler_begin(&sampler, s->sampler, s->seed, x, y);
     for (uint32_t i = 0; i < count; i++) {
-        ql_uniform2_t u;
+        ql_uniform2_t u, lens;
         ql_ray_t ray;
 
         ql_sampler_start(&sampler, first + i);
         u = ql_sampler_2d(&sampler, QL_DIM_PIXEL);
-        if (ql_camera_ray(&pixel, u.u1, u.u2, &ray)) {
-            ql_path_trace(render->scene, s, &sampler, &ray, sum, &render->diag);
+        lens = u; /* not used without a lens */
+#if QL_CFG_LENS
+        if (render->scene->lens != NULL) {
+            lens = ql_sampler_2d(&sampler, QL_DIM_LENS);
+        }
+#endif
+        if (ql_camera_ray(&pixel, u, lens, &ray)) {
+            ql_path_trace(&path, &ray);
+        } else if (QL_CFG_SKY) {
+            ql_path_miss(&path, &ray);
         }
     }
 }
+
+#if QL_CFG_ADAPTIVE
+uint32_t ql_render_adaptive(
+        ql_render_t *render, uint16_t x, uint16_t y, ql_sum_t *sum)
+{
+    static const ql_sum_t black;
+    static const ql_half_t none;
+    const ql_settings_t *s = &render->settings;
+    const uint32_t last = s->spp / 2; /* in each half */
+    ql_half_t half[2];
+    uint32_t count = QL_ADAPTIVE_MIN / 2;
+
+    if (s->error_q16 == 0 || s->spp < QL_ADAPTIVE_MIN) {
+        *sum = black;
+        ql_render_pixel(render, x, y, 0, s->spp, sum);
+        return s->spp;
+    }
+    half[0] = half[1] = none;
+    do {
+        for (unsigned k = 0; k < 2; k++) {
+            while (half[k].spread.count < count) {
+                ql_sum_t sample = black;
+
+                ql_render_pixel(render, x, y, half[k].spread.count, 1, &sample);
+                ql_half_add(half + k, &sample);
+            }
+            render->settings.seed ^= QL_ADAPTIVE_SEED; /* twice: as it was */
+        }
+        count = 2 * count < last ? 2 * count : last;
+    } while (!ql_half_decide(half, s->error_q16, half[0].spread.count == last));
+    return ql_half_join(half, sum);
+}
+#endif
 
 void ql_render_encode(const ql_render_t *render, uint16_t x, uint16_t y,
         const ql_sum_t *sum, uint32_t samples, const ql_output_t *outputs,
@@ -77,13 +129,19 @@ void ql_render_encode(const ql_render_t *render, uint16_t x, uint16_t y,
 void ql_render_line(ql_render_t *render, uint16_t y, const ql_output_t *outputs,
         uint8_t count)
 {
+#if !QL_CFG_ADAPTIVE
     const uint32_t spp = render->settings.spp;
+#endif
 
     QL_ASSERT(y < render->settings.height && count > 0);
     for (uint16_t x = 0; x < render->settings.width; x++) {
         ql_sum_t sum = {{0, 0, 0}};
+#if QL_CFG_ADAPTIVE
+        const uint32_t spp = ql_render_adaptive(render, x, y, &sum);
+#else
 
         ql_render_pixel(render, x, y, 0, spp, &sum);
+#endif
         ql_render_encode(render, x, y, &sum, spp, outputs, count);
     }
 }

@@ -48,6 +48,22 @@ QL_MUST_CHECK ql_status_t ql_render_init(ql_render_t *render,
 void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count, ql_sum_t *sum);
 
+#if QL_CFG_ADAPTIVE
+/* Render one pixel until its error is small enough (ql_adaptive.h).
+ *
+ *   render  -       from ql_render_init(); error_q16 0 asks for all samples
+ *   x, y    px      as above
+ *   sum     u40.24  out: its mean times the samples returned
+ *   return  -       how many samples were taken: QL_ADAPTIVE_MIN times a power
+ *                   of two, or spp, an odd one left out; spp if that is less
+ *
+ * A function of (blob, settings, x, y). The error is estimated from single
+ * samples: with Sobol points, which vary less together, it is overestimated.
+ */
+uint32_t ql_render_adaptive(
+        ql_render_t *render, uint16_t x, uint16_t y, ql_sum_t *sum);
+#endif
+
 /* Encode one pixel from its sums.
  *
  *   render   -   from ql_render_init(): exposure

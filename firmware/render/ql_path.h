@@ -4,26 +4,23 @@
 #ifndef QL_PATH_H
 #define QL_PATH_H
 
-#include "render/ql_film.h"
-#include "sample/ql_sampler.h"
-#include "scene/ql_ray.h"
-#include "scene/ql_scene.h"
-#include "base/ql_settings.h"
+#include "render/ql_direct.h"
 
 /* Follow one path and add the light it carries to a pixel.
  *
- *   scene     -  open
- *   settings  -  bounces, direct and indirect estimators
- *   sampler   -  started for this sample
- *   ray       -  the camera ray
- *   sum       -  added to
- *   diag      -  counts
+ *   path  -  scene, settings, sampler started for this sample, sum, counters
+ *   ray   -  the camera ray, in the box
  *
- * Emitters count exactly once: at the camera ray's own hit, and by the direct
- * estimator at every vertex; hits by indirect rays add nothing.
+ * Emitters count exactly once: where the camera ray hits them, and at every
+ * vertex by the direct strategy.
  */
-void ql_path_trace(const ql_scene_t *scene, const ql_settings_t *settings,
-        const ql_sampler_t *sampler, const ql_ray_t *ray, ql_sum_t *sum,
-        ql_diag_t *diag);
+void ql_path_trace(const ql_path_t *path, const ql_ray_t *ray);
+
+/* Add what is seen by a camera ray that misses the scene's box: the sky.
+ *
+ *   path  -  likewise
+ *   ray   -  only its direction counts
+ */
+void ql_path_miss(const ql_path_t *path, const ql_ray_t *ray);
 
 #endif

@@ -4,15 +4,44 @@
 #include "scene/ql_blob.h"
 
 #include "base/ql_crc.h"
+#include "sample/ql_table.h"
 #include "scene/ql_scene.h"
 
 /* Features of this build. */
 #define BUILT                                                                  \
-    ((QL_CFG_NODE16 ? QL_FEATURE_NODE16 : 0) |                                 \
-            (QL_CFG_NODE8 ? QL_FEATURE_NODE8 : 0) |                            \
-            (QL_CFG_PAGES ? QL_FEATURE_PAGES : 0) |                            \
-            (QL_CFG_LIGHTS ? QL_FEATURE_LIGHTS : 0) |                          \
-            (QL_CFG_TWO_SIDED ? QL_FEATURE_TWO_SIDED : 0))
+    ((uint32_t)(QL_CFG_NODE16 ? QL_FEATURE_NODE16 : 0) |                       \
+            (uint32_t)(QL_CFG_NODE8 ? QL_FEATURE_NODE8 : 0) |                  \
+            (uint32_t)(QL_CFG_PAGES ? QL_FEATURE_PAGES : 0) |                  \
+            (uint32_t)(QL_CFG_LIGHTS ? QL_FEATURE_LIGHTS : 0) |                \
+            (uint32_t)(QL_CFG_TWO_SIDED ? QL_FEATURE_TWO_SIDED : 0) |          \
+            (uint32_t)(QL_CFG_SMOOTH ? QL_FEATURE_SMOOTH : 0) |                \
+            (uint32_t)(QL_CFG_PHONG ? QL_FEATURE_PHONG : 0) |                  \
+            (uint32_t)(QL_CFG_MIRROR ? QL_FEATURE_MIRROR : 0) |                \
+            (uint32_t)(QL_CFG_GLASS ? QL_FEATURE_GLASS : 0) |                  \
+            (uint32_t)(QL_CFG_SPHERES ? QL_FEATURE_SPHERES : 0) |              \
+            (uint32_t)(QL_CFG_SKY ? QL_FEATURE_SKY : 0) |                      \
+            (uint32_t)(QL_CFG_SKY_MAP ? QL_FEATURE_SKY_MAP : 0) |              \
+            (uint32_t)(QL_CFG_TABLES ? QL_FEATURE_TABLES : 0) |                \
+            (uint32_t)(QL_CFG_LENS ? QL_FEATURE_LENS : 0))
+
+/* Are there tables beyond those of every blob? */
+#define MORE                                                                   \
+    (QL_CFG_SMOOTH || QL_GLOSS || QL_CFG_SPHERES || QL_CFG_SKY ||              \
+            QL_CFG_SKY_MAP || QL_CFG_TABLES || QL_CFG_LENS)
+
+/* Bytes of a header with these features, all of them built in. */
+static uint32_t header_bytes_of(uint32_t features)
+{
+    uint32_t bytes = sizeof(ql_blob_header_t);
+
+#define ADD_TABLE(name, entry, needs)                                          \
+    if (features & BUILT & (uint32_t)(needs)) {                                \
+        bytes += (uint32_t)sizeof(ql_blob_table_t);                            \
+    }
+    QL_BLOB_MORE_LIST(ADD_TABLE)
+#undef ADD_TABLE
+    return bytes;
+}
 
 /* Find a table: aligned, after the header, entirely inside the blob. */
 static const void *table_at(const ql_blob_header_t *header,
@@ -23,8 +52,10 @@ static const void *table_at(const ql_blob_header_t *header,
     const uint32_t size = QL_LE32(header->size_bytes);
 
     *count = QL_LE32(table->count);
-    if (offset % 4 != 0 || offset < sizeof *header || offset > size ||
-            *count > count_max || *count > (size - offset) / entry_bytes) {
+    if (offset % 4 != 0 ||
+            offset < header_bytes_of(QL_LE32(header->features)) ||
+            offset > size || *count > count_max ||
+            *count > (size - offset) / entry_bytes) {
         return NULL;
     }
     return (const uint8_t *)header + offset;
@@ -69,8 +100,16 @@ static bool normal_valid(const ql_scene_t *scene, const ql_blob_tri_t *tri)
     return x * x + y * y + z * z <= ((uint64_t)1 << 58) + ((uint64_t)1 << 38);
 }
 
+/* Does an entry without a normal stand for a sphere there is? */
+static bool sphere_entry_valid(const ql_blob_tri_t *tri, uint32_t sphere_count)
+{
+    return QL_LE16(tri->vertex[0]) < sphere_count &&
+           (tri->vertex[1] | tri->vertex[2]) == 0 &&
+           QL_LE16(tri->material) >> 14 == 0;
+}
+
 static bool triangles_valid(const ql_scene_t *scene, uint32_t count,
-        uint32_t vertex_count, uint32_t material_count)
+        uint32_t vertex_count, uint32_t material_count, uint32_t sphere_count)
 {
     const ql_blob_tri_t *tris = scene->triangles;
 
@@ -78,8 +117,14 @@ static bool triangles_valid(const ql_scene_t *scene, uint32_t count,
         const uint32_t packed = QL_LE16(tris[i].material);
         const uint32_t page = packed >> 14 << 16;
 
-        if ((packed & 0x3fffu) >= material_count || (page && !QL_CFG_PAGES) ||
-                (QL_LE32(tris[i].inv_n) & 0x80000000u) == 0) {
+        if ((packed & 0x3fffu) >= material_count || (page && !QL_CFG_PAGES)) {
+            return false;
+        }
+        if (QL_CFG_SPHERES && tris[i].inv_n == 0 &&
+                sphere_entry_valid(tris + i, sphere_count)) {
+            continue;
+        }
+        if ((QL_LE32(tris[i].inv_n) & 0x80000000u) == 0) {
             return false;
         }
         for (unsigned k = 0; k < 3; k++) {
@@ -106,38 +151,277 @@ static bool materials_valid(const ql_blob_material_t *materials, uint32_t count)
     return true;
 }
 
-static bool lights_valid(
-        const ql_blob_light_t *lights, uint32_t count, uint32_t tri_count)
+/* Which emitter a light is: in order, and the last one the sky if there is. */
+static bool emitter_valid(const ql_blob_light_t *lights, uint32_t i,
+        uint32_t count, uint32_t tri_count, bool sky)
+{
+    const uint32_t triangle = QL_LE16(lights[i].triangle);
+
+    if (MORE || QL_CFG_STRATEGIES) {
+        if (i > 0 && triangle <= QL_LE16(lights[i - 1].triangle)) {
+            return false;
+        }
+        if (sky && i == count - 1) {
+            return triangle == QL_LIGHT_SKY;
+        }
+    }
+    return triangle < tri_count; /* <= 65535, so never the sky */
+}
+
+static bool lights_valid(const ql_blob_light_t *lights, uint32_t count,
+        uint32_t tri_count, bool sky)
 {
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t cum = QL_LE32(lights[i].cum);
         const int16_t e = ql_i16(QL_LE16((uint16_t)lights[i].weight_exp));
 
-        if (QL_LE16(lights[i].triangle) >= tri_count || e < -128 || e > 128 ||
-                (QL_LE32(lights[i].weight_m) & 0x80000000u) == 0 ||
+        if (!emitter_valid(lights, i, count, tri_count, sky) || e < -128 ||
+                e > 128 || (QL_LE32(lights[i].weight_m) & 0x80000000u) == 0 ||
                 (i == 0 ? cum != 0 : cum <= QL_LE32(lights[i - 1].cum))) {
             return false;
         }
     }
-    return true;
+    return count > 0 || !sky;
+}
+
+/* Is the number in a word, or the high word of a wide one, -2^30..2^30? */
+static bool reach_valid(uint32_t word)
+{
+    return QL_LE32(word) + 0x40000000u <= 0x80000000u;
 }
 
 static bool camera_valid(const ql_blob_camera_t *camera)
 {
     for (unsigned k = 0; k < 3; k++) {
-        const int64_t p = ql_i64((uint64_t)QL_LE32(camera->p[k][1]) << 32);
-        const int64_t d = ql_i32(QL_LE32(camera->d[k]));
-        const int64_t dr = ql_i32(QL_LE32(camera->dr[k]));
-        const int64_t du = ql_i32(QL_LE32(camera->du[k]));
-        const int64_t limit = (int64_t)1 << 30;
-
-        if (p < -(limit << 32) || p > limit << 32 || d < -limit || d > limit ||
-                dr < -limit || dr > limit || du < -limit || du > limit) {
+        if (!reach_valid(camera->p[k][1]) || !reach_valid(camera->d[k]) ||
+                !reach_valid(camera->dr[k]) || !reach_valid(camera->du[k])) {
             return false;
         }
     }
     return true;
 }
+
+/* ---- Tables of features ------------------------------------------------- */
+
+#if MORE
+/* The next of them, in the order of QL_BLOB_MORE_LIST. */
+typedef struct {
+    const ql_blob_header_t *header;
+    const ql_blob_table_t *next;
+    uint32_t count; /* entries of the last one found; 0 without it */
+    bool sound;     /* nothing was wrong so far */
+} more_t;
+
+static const void *more_table(
+        more_t *more, unsigned needs, uint32_t entry_bytes, uint32_t count_max)
+{
+    const void *table = NULL;
+
+    more->count = 0;
+    if (QL_LE32(more->header->features) & needs) {
+        table = table_at(more->header, more->next++, entry_bytes, count_max,
+                &more->count);
+        if (table == NULL) {
+            more->count = 0;
+            more->sound = false;
+        }
+    }
+    return table;
+}
+#endif
+
+#if QL_GLOSS
+static bool gloss_valid(const ql_blob_gloss_t *gloss,
+        const ql_blob_material_t *material, uint32_t features)
+{
+    const uint32_t kind = QL_LE16(gloss->kind);
+    const uint32_t chance = QL_LE32(gloss->chance);
+    const uint32_t parameter = QL_LE32(gloss->parameter);
+    const bool glass = kind == QL_GLOSS_GLASS;
+    const uint32_t needs = kind == QL_GLOSS_PHONG    ? QL_FEATURE_PHONG
+                           : kind == QL_GLOSS_MIRROR ? QL_FEATURE_MIRROR
+                           : glass                   ? QL_FEATURE_GLASS
+                                                     : 0;
+
+    for (unsigned k = 0; k < 3; k++) {
+        const uint32_t albedo = QL_LE32(material->albedo[k]); /* <= 2^31 */
+
+        if (QL_LE32(gloss->specular[k]) > QL_UQ31_ONE - albedo ||
+                (glass && albedo != 0)) {
+            return false;
+        }
+    }
+    return (features & needs) != 0 && gloss->zero == 0 &&
+           (glass ? chance == QL_UQ31_ONE && parameter >= 1ul << 12 &&
+                                   parameter <= 1ul << 22
+                  : chance <= QL_UQ31_ONE) &&
+           (kind != QL_GLOSS_MIRROR || parameter == 0);
+}
+#endif
+
+#if QL_CFG_SPHERES
+/* From 8 to 32759 grid units on each axis, and a unit of radius or more. */
+static bool sphere_valid(const ql_blob_sphere_t *sphere)
+{
+    const uint32_t low = (uint32_t)QL_GRID_MARGIN << 8;
+    const uint32_t high = (uint32_t)(QL_GRID_MAX - QL_GRID_MARGIN) << 8;
+    const uint32_t r = QL_LE32(sphere->radius);
+
+    if (r < 256 || r > high) {
+        return false;
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        const uint32_t c = QL_LE32(sphere->centre[k]);
+
+        if (c < low + r || c > high - r) {
+            return false;
+        }
+    }
+    return true;
+}
+#endif
+
+#if QL_CFG_TABLES
+static bool distribution_valid(const ql_scene_t *scene,
+        const ql_blob_distribution_t *d, uint32_t word_count)
+{
+    const uint32_t first = QL_LE32(d->first);
+    uint16_t count[QL_TABLE_DIMS_MAX];
+    ql_table_t table;
+
+    for (unsigned k = 0; k < QL_TABLE_DIMS_MAX; k++) {
+        count[k] = QL_LE16(d->count[k]);
+        if (k >= QL_LE16(d->dims) && count[k] != 1) {
+            return false;
+        }
+    }
+    return first <= word_count &&
+           ql_table_open(&table, scene->words + first, word_count - first,
+                   QL_LE16(d->dims), count) == QL_OK;
+}
+#endif
+
+#if QL_CFG_SKY_MAP
+/* A map has all its texels, and a distribution of its size. */
+static bool sky_map_valid(const ql_scene_t *scene, uint32_t texel_count)
+{
+    const ql_blob_sky_t *sky = scene->sky;
+    const uint32_t width = QL_LE16(sky->width), height = QL_LE16(sky->height);
+    const ql_blob_distribution_t *d = scene->tables + QL_LE16(sky->table);
+
+    if (width == 0 || height == 0 || texel_count != width * height ||
+            QL_LE16(sky->table) >= scene->table_count ||
+            QL_LE16(d->dims) != 2 || d->count[0] != sky->width ||
+            d->count[1] != sky->height) {
+        return false;
+    }
+    for (uint32_t i = 0; i < texel_count; i++) {
+        if (QL_LE32(scene->texels[i].rgb9e5) >> 27 > 23) {
+            return false;
+        }
+    }
+    return true;
+}
+#endif
+
+#if QL_CFG_LENS
+static bool lens_valid(const ql_blob_lens_t *lens)
+{
+    for (unsigned i = 0; i < 6; i++) {
+        if (!reach_valid(lens->p[i / 3][i % 3][1]) ||
+                !reach_valid(lens->d[i / 3][i % 3])) {
+            return false;
+        }
+    }
+    return true;
+}
+#endif
+
+/* Open and check them; vertices and materials were found before. */
+static bool more_open(ql_scene_t *scene, const ql_blob_header_t *h,
+        uint32_t vertices, uint32_t materials, uint32_t *spheres)
+{
+#if MORE
+    more_t more = {h, (const ql_blob_table_t *)(h + 1), 0, true};
+#if QL_CFG_SKY_MAP
+    uint32_t texels;
+#endif
+
+    (void)vertices;
+    (void)materials;
+    (void)spheres;
+#if QL_CFG_SMOOTH
+    scene->normals = more_table(
+            &more, QL_FEATURE_SMOOTH, sizeof(ql_blob_normal_t), QL_VERTEX_MAX);
+    more.sound =
+            more.sound && (scene->normals == NULL || more.count == vertices);
+#endif
+#if QL_GLOSS
+    scene->gloss = more_table(&more,
+            QL_FEATURE_PHONG | QL_FEATURE_MIRROR | QL_FEATURE_GLASS,
+            sizeof(ql_blob_gloss_t), materials);
+    scene->gloss_count = (uint16_t)more.count; /* <= QL_MATERIAL_MAX */
+    for (uint32_t i = 0; more.sound && i < more.count; i++) {
+        more.sound = gloss_valid(
+                scene->gloss + i, scene->materials + i, QL_LE32(h->features));
+    }
+#endif
+#if QL_CFG_SPHERES
+    scene->spheres = more_table(
+            &more, QL_FEATURE_SPHERES, sizeof(ql_blob_sphere_t), QL_TRI_MAX);
+    *spheres = more.count;
+    for (uint32_t i = 0; more.sound && i < more.count; i++) {
+        more.sound = sphere_valid(scene->spheres + i);
+    }
+#endif
+#if QL_CFG_SKY
+    scene->sky = more_table(&more, QL_FEATURE_SKY, sizeof(ql_blob_sky_t), 1);
+    more.sound = more.sound && (scene->sky == NULL || more.count == 1);
+#endif
+#if QL_CFG_SKY_MAP
+    scene->texels = more_table(
+            &more, QL_FEATURE_SKY_MAP, sizeof(ql_blob_texel_t), UINT32_MAX);
+    texels = more.count;
+#endif
+#if QL_CFG_TABLES
+    scene->tables = more_table(&more, QL_FEATURE_TABLES,
+            sizeof(ql_blob_distribution_t), UINT16_MAX);
+    scene->table_count = (uint16_t)more.count; /* <= UINT16_MAX */
+    scene->words =
+            more_table(&more, QL_FEATURE_TABLES, sizeof(uint16_t), UINT32_MAX);
+    for (uint16_t i = 0; more.sound && i < scene->table_count; i++) {
+        more.sound = distribution_valid(scene, scene->tables + i, more.count);
+    }
+#endif
+#if QL_CFG_LENS
+    scene->lens = more_table(&more, QL_FEATURE_LENS, sizeof(ql_blob_lens_t), 1);
+    more.sound =
+            more.sound && (scene->lens == NULL ||
+                                  (more.count == 1 && lens_valid(scene->lens)));
+#endif
+#if QL_CFG_SKY_MAP
+    if (more.sound && scene->texels != NULL) {
+        return scene->sky != NULL && scene->tables != NULL &&
+               sky_map_valid(scene, texels);
+    }
+#endif
+#if QL_CFG_SKY
+    if (more.sound && scene->sky != NULL) {
+        return (scene->sky->width | scene->sky->height) == 0;
+    }
+#endif
+    return more.sound;
+#else
+    (void)scene;
+    (void)h;
+    (void)vertices;
+    (void)materials;
+    (void)spheres;
+    return true;
+#endif
+}
+
+/* ---- The tree ----------------------------------------------------------- */
 
 /* One child of a pair, whatever the width. */
 typedef struct {
@@ -228,8 +512,7 @@ static ql_status_t header_valid(const void *blob, size_t size)
     if (QL_LE32(h->magic) != QL_BLOB_MAGIC) {
         return QL_ERR_MAGIC;
     }
-    if (QL_LE16(h->version) != QL_BLOB_VERSION ||
-            QL_LE16(h->header_bytes) != sizeof *h) {
+    if (QL_LE16(h->version) != QL_BLOB_VERSION) {
         return QL_ERR_VERSION;
     }
     if (QL_LE32(h->size_bytes) > size) {
@@ -243,8 +526,15 @@ static ql_status_t header_valid(const void *blob, size_t size)
             QL_LE32(h->crc32)) {
         return QL_ERR_CHECKSUM;
     }
-    if (*ql_blob_missing(blob) != '\0') {
+    if ((QL_LE32(h->features) & ~BUILT) != 0) {
         return QL_ERR_FEATURE;
+    }
+    /* the tables of a feature are known only where it is built in */
+    if (QL_LE16(h->header_bytes) != header_bytes_of(QL_LE32(h->features))) {
+        return QL_ERR_VERSION;
+    }
+    if (MORE && QL_LE16(h->header_bytes) > QL_LE32(h->size_bytes)) {
+        return QL_ERR_RANGE;
     }
     return QL_OK;
 }
@@ -267,7 +557,8 @@ static bool header_in_range(const ql_blob_header_t *h)
 static ql_status_t tables_open(ql_scene_t *scene, const ql_blob_header_t *h)
 {
     const uint32_t features = QL_LE32(h->features);
-    uint32_t cameras, vertices, tris, pairs, materials, lights;
+    uint32_t cameras, vertices, tris, pairs, materials, lights, spheres = 0;
+    bool sky = false;
 
     scene->header = h;
     scene->node_bits = features & QL_FEATURE_NODE16 ? 16 : 8;
@@ -300,9 +591,15 @@ static ql_status_t tables_open(ql_scene_t *scene, const ql_blob_header_t *h)
     }
     if (!camera_valid(scene->camera) ||
             !vertices_valid(scene->vertices, vertices) ||
-            !triangles_valid(scene, tris, vertices, materials) ||
             !materials_valid(scene->materials, materials) ||
-            !lights_valid(scene->lights, lights, tris)) {
+            !more_open(scene, h, vertices, materials, &spheres) ||
+            !triangles_valid(scene, tris, vertices, materials, spheres)) {
+        return QL_ERR_RANGE;
+    }
+#if QL_CFG_SKY
+    sky = scene->sky != NULL;
+#endif
+    if (!lights_valid(scene->lights, lights, tris, sky)) {
         return QL_ERR_RANGE;
     }
     return tree_valid(scene, pairs, tris, QL_LE16(h->depth));
@@ -310,10 +607,9 @@ static ql_status_t tables_open(ql_scene_t *scene, const ql_blob_header_t *h)
 
 ql_status_t ql_blob_open(ql_scene_t *scene, const void *blob, size_t size)
 {
-    static const ql_scene_t zero;
     ql_status_t status;
 
-    *scene = zero;
+    *scene = (ql_scene_t){0};
     status = header_valid(blob, size);
     if (status == QL_OK && !header_in_range(blob)) {
         status = QL_ERR_RANGE;
@@ -322,25 +618,30 @@ ql_status_t ql_blob_open(ql_scene_t *scene, const void *blob, size_t size)
         status = tables_open(scene, blob);
     }
     if (status != QL_OK) {
-        *scene = zero;
+        *scene = (ql_scene_t){0};
     }
     return status;
 }
 
 const char *ql_blob_missing(const void *blob)
 {
-    const uint32_t missing =
-            QL_LE32(((const ql_blob_header_t *)blob)->features) &
-            ~(uint32_t)BUILT;
+    /* one after the other, each ended by a 0, in the order of their bits */
+#define FEATURE_NAME(name, bit, text) text "\0"
+    static const char names[] = QL_FEATURE_LIST(FEATURE_NAME);
+#undef FEATURE_NAME
+    const char *name = names;
+    uint32_t missing =
+            QL_LE32(((const ql_blob_header_t *)blob)->features) & ~BUILT;
 
     if (missing == 0) {
         return "";
     }
-#define NAME_FEATURE(name, bit, text)                                          \
-    if (missing & (uint32_t)name) {                                            \
-        return text;                                                           \
+    for (; *name != '\0'; missing >>= 1) {
+        if (missing & 1u) {
+            return name;
+        }
+        while (*name++ != '\0') {
+        }
     }
-    QL_FEATURE_LIST(NAME_FEATURE)
-#undef NAME_FEATURE
     return "unknown";
 }

@@ -24,6 +24,7 @@
 #define QL_LEAF_MAX     13u    /* triangles in one leaf */
 #define QL_DEPTH_MAX    32u    /* what qlux-scene builds at most */
 #define QL_IMAGE_MAX    16384u /* pixels a side */
+#define QL_LIGHT_SKY    65535u /* "triangle" of the light that is the sky */
 
 /* Features: what a scene needs of a build. Bit, name. */
 #define QL_FEATURE_LIST(X)                                                     \
@@ -31,7 +32,16 @@
     X(QL_FEATURE_NODE8, 1, "node8")                                            \
     X(QL_FEATURE_LIGHTS, 2, "lights")                                          \
     X(QL_FEATURE_TWO_SIDED, 3, "two-sided")                                    \
-    X(QL_FEATURE_PAGES, 4, "pages")
+    X(QL_FEATURE_PAGES, 4, "pages")                                            \
+    X(QL_FEATURE_SMOOTH, 5, "smooth")                                          \
+    X(QL_FEATURE_PHONG, 6, "phong")                                            \
+    X(QL_FEATURE_MIRROR, 7, "mirror")                                          \
+    X(QL_FEATURE_GLASS, 8, "glass")                                            \
+    X(QL_FEATURE_SPHERES, 9, "spheres")                                        \
+    X(QL_FEATURE_SKY, 10, "sky")                                               \
+    X(QL_FEATURE_SKY_MAP, 11, "sky-map")                                       \
+    X(QL_FEATURE_TABLES, 12, "tables")                                         \
+    X(QL_FEATURE_LENS, 13, "lens")
 
 enum {
 #define QL_FEATURE_ENUM(name, bit, text) name = 1 << (bit),
@@ -48,7 +58,7 @@ typedef struct {
 typedef struct {
     uint32_t magic;
     uint16_t version;
-    uint16_t header_bytes; /* sizeof(ql_blob_header_t) */
+    uint16_t header_bytes; /* of this and the tables of features below */
     uint32_t size_bytes;   /* of the whole blob, a multiple of 4 */
     uint32_t crc32;        /* of bytes [16, size_bytes) */
     uint32_t features;     /* QL_FEATURE_ bits */
@@ -68,6 +78,21 @@ typedef struct {
     ql_blob_table_t materials;
     ql_blob_table_t lights;
 } ql_blob_header_t;
+
+/* Tables of features follow the header, present if any of their features is, in
+ * this order: name, entry, features. header_bytes counts them. */
+#define QL_BLOB_MORE_LIST(X)                                                   \
+    X(normals, ql_blob_normal_t, QL_FEATURE_SMOOTH)                            \
+    X(gloss, ql_blob_gloss_t,                                                  \
+            QL_FEATURE_PHONG | QL_FEATURE_MIRROR | QL_FEATURE_GLASS)           \
+    X(spheres, ql_blob_sphere_t, QL_FEATURE_SPHERES)                           \
+    X(sky, ql_blob_sky_t, QL_FEATURE_SKY)                                      \
+    X(texels, ql_blob_texel_t, QL_FEATURE_SKY_MAP)                             \
+    X(tables, ql_blob_distribution_t, QL_FEATURE_TABLES)                       \
+    X(words, uint16_t, QL_FEATURE_TABLES)                                      \
+    X(lens, ql_blob_lens_t, QL_FEATURE_LENS)
+
+enum { QL_BLOB_MORE_MAX = 8 }; /* entries of that list */
 
 /* A pinhole camera: origin and direction are affine in the picture's plane.
  * A point (x, y) of the plane, y up, |y| <= 1 and |x| <= width/height, has
@@ -91,7 +116,9 @@ typedef struct {
 /* Counter-clockwise from the front. material holds its index in bits 0..13 and
  * the page of all three vertices in 14..15: vertex i is entry
  * page * 65536 + vertex[i]. Pages above 0 need QL_FEATURE_PAGES. inv_n holds
- * 1/|e1 x e2| = (inv_n & ~31) 2^-32 2^(1 - (inv_n & 31)), its top bit set. */
+ * 1/|e1 x e2| = (inv_n & ~31) 2^-32 2^(1 - (inv_n & 31)), its top bit set.
+ * An inv_n of 0 makes the entry a sphere: vertex[0] is its index in the table
+ * of spheres, vertex[1], vertex[2] and the page are 0. */
 typedef struct {
     uint16_t vertex[3];
     uint16_t material; /* index 0..16383, page << 14 */
@@ -126,13 +153,73 @@ typedef struct {
     uint32_t emission[3]; /* Ke, u0.32 radiance units; 0: not a light */
 } ql_blob_material_t;
 
-/* An emitting triangle. Light i is chosen for u0.32 numbers in
- * [cum[i], cum[i+1]); past the last the bound is 2^32. */
+/* Corner normals, one for each vertex; all 0 where a surface is flat. */
+typedef struct {
+    int16_t xyz[3]; /* s0.15; any length but for 0 */
+} ql_blob_normal_t;
+
+typedef enum {
+    QL_GLOSS_PHONG = 1, /* Kd, and Ks about the mirror direction */
+    QL_GLOSS_MIRROR,    /* Kd, and Ks exactly there */
+    QL_GLOSS_GLASS      /* refracts Tf, reflects by Fresnel; Kd is 0 */
+} ql_gloss_kind_t;
+
+/* What material i of the first count ones is beyond diffuse. Those after them
+ * are diffuse only. Kd + Ks <= 1 in each channel. */
+typedef struct {
+    uint32_t specular[3]; /* Ks, of glass Tf; u1.31, 0..2^31 */
+    uint32_t parameter;   /* Phong: Ns, u16.16; glass: Ni, u16.16, in
+                                   2^12..2^22 (1/16..64); mirror: 0 */
+    uint32_t chance;      /* u1.31: of the specular lobe when one is drawn by
+                                   BRDF; 0..2^31; glass: 2^31 */
+    uint16_t kind;        /* ql_gloss_kind_t */
+    uint16_t zero;
+} ql_blob_gloss_t;
+
+/* Lies within [8, 32759] grid units on each axis. */
+typedef struct {
+    uint32_t centre[3]; /* 1/256 grid units */
+    uint32_t radius;    /* 1/256 grid units, 256 or more */
+} ql_blob_sphere_t;
+
+/* Light from all around; one entry. The last light stands for it. */
+typedef struct {
+    uint32_t emission[3]; /* u0.32 radiance units; of a map 0 */
+    uint32_t rotate;      /* turn32: azimuth at which the map begins */
+    uint16_t width;       /* texels; of a constant sky 0 */
+    uint16_t height;
+    uint16_t table; /* index of its distribution, width by height */
+    uint16_t zero;
+} ql_blob_sky_t;
+
+/* A radiance of the map: m << e in u0.32 radiance units, red in bits 0..8,
+ * green 9..17, blue 18..26, e in 27..31, at most 23. Row 0 is around +y, column
+ * 0 begins at azimuth rotate, counted from +z to +x. */
+typedef struct {
+    uint32_t rgb9e5;
+} ql_blob_texel_t;
+
+/* A tabulated distribution (sample/ql_table.h): its rows lie among words. */
+typedef struct {
+    uint32_t first;    /* index of its first word */
+    uint16_t count[3]; /* cells: nx, ny, nz; 1 beyond dims */
+    uint16_t dims;     /* 1..3 */
+} ql_blob_distribution_t;
+
+/* A thin lens: for a point (a, b) of the unit disk add a p[0] + b p[1] to the
+ * origin and a d[0] + b d[1] to the direction, in the formats of the camera. */
+typedef struct {
+    uint32_t p[2][3][2];
+    uint32_t d[2][3];
+} ql_blob_lens_t;
+
+/* An emitter: a triangle or sphere, or the sky. Light i is chosen for u0.32
+ * numbers in [cum[i], cum[i+1]); past the last the bound is 2^32. */
 typedef struct {
     uint32_t cum;       /* u0.32; strictly increasing, the first 0 */
     uint32_t weight_m;  /* 1/(2 pi P) = weight_m * 2^weight_exp, */
     int16_t weight_exp; /*   P the chance above; top bit of _m set */
-    uint16_t triangle;
+    uint16_t triangle;  /* strictly increasing; QL_LIGHT_SKY for the sky */
 } ql_blob_light_t;
 
 QL_STATIC_ASSERT(sizeof(ql_blob_header_t) == 88, ql_blob_header_size);
@@ -143,6 +230,13 @@ QL_STATIC_ASSERT(sizeof(ql_blob_node16_t) == 16, ql_blob_node16_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_pair8_t) == 24, ql_blob_pair8_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_material_t) == 24, ql_blob_material_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_light_t) == 12, ql_blob_light_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_normal_t) == 6, ql_blob_normal_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_gloss_t) == 24, ql_blob_gloss_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_sphere_t) == 16, ql_blob_sphere_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_sky_t) == 24, ql_blob_sky_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_texel_t) == 4, ql_blob_texel_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_distribution_t) == 12, ql_blob_dist_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_lens_t) == 72, ql_blob_lens_size);
 
 /* A checked, read-only view of a blob. Only ql_blob_open() may fill one. */
 typedef struct ql_scene {
@@ -158,6 +252,30 @@ typedef struct ql_scene {
     uint8_t root_meta;
     uint8_t node_bits; /* 8 or 16 */
     bool two_sided;    /* emitters shine from both sides */
+#if QL_CFG_SMOOTH
+    const ql_blob_normal_t *normals; /* of each vertex, or NULL */
+#endif
+#if QL_GLOSS
+    const ql_blob_gloss_t *gloss;
+    uint16_t gloss_count; /* 0..materials */
+#endif
+#if QL_CFG_SPHERES
+    const ql_blob_sphere_t *spheres;
+#endif
+#if QL_CFG_SKY
+    const ql_blob_sky_t *sky; /* NULL: black */
+#endif
+#if QL_CFG_SKY_MAP
+    const ql_blob_texel_t *texels;
+#endif
+#if QL_CFG_TABLES
+    const ql_blob_distribution_t *tables;
+    const uint16_t *words;
+    uint16_t table_count;
+#endif
+#if QL_CFG_LENS
+    const ql_blob_lens_t *lens; /* NULL: a pinhole */
+#endif
 } ql_scene_t;
 
 /* Check a scene blob and open a read-only view of it, in place.

@@ -4,6 +4,7 @@
 #include "scene/ql_camera.h"
 
 #include "math/ql_real.h"
+#include "sample/ql_square.h"
 #include "sample/ql_warp.h"
 
 /* The box in s.16 grid units, and how far outside an origin may be: rays from
@@ -50,6 +51,17 @@ static uint64_t reach_of(int64_t base, int64_t right, int64_t up,
     return ql_abs64(base) + side * width + ql_abs64(up); /* < 3/4 2^64 */
 }
 
+#if QL_CFG_LENS
+/* What a lens adds to a reach: both of its halves, and what ql_warp_disk() may
+ * err by. At most 2^63 + 2^49. */
+static uint64_t lens_reach(int64_t first, int64_t second)
+{
+    const uint64_t sum = ql_abs64(first) + ql_abs64(second);
+
+    return sum + (sum >> 14);
+}
+#endif
+
 bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         uint16_t width, uint16_t height)
 {
@@ -64,6 +76,20 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
 
         reach = r > reach ? r : reach;
     }
+#if QL_CFG_LENS
+    camera->lens = scene->lens;
+    if (scene->lens != NULL) {
+        const uint64_t at_film = reach; /* below 2^61 */
+
+        for (unsigned k = 0; k < 3; k++) {
+            const uint64_t r =
+                    at_film + lens_reach(narrow_field(scene->lens->d[0][k]),
+                                      narrow_field(scene->lens->d[1][k]));
+
+            reach = r > reach ? r : reach;
+        }
+    }
+#endif
     while (reach >> down > (uint64_t)1 << 46) {
         down++;
     }
@@ -75,6 +101,15 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         if (reach_of(p, pr, pu, width, height) > (uint64_t)1 << 62) {
             return false;
         }
+#if QL_CFG_LENS
+        if (scene->lens != NULL &&
+                reach_of(p, pr, pu, width, height) +
+                                lens_reach(wide_field(scene->lens->p[0][k]),
+                                        wide_field(scene->lens->p[1][k])) >
+                        (uint64_t)1 << 62) {
+            return false;
+        }
+#endif
         axis_init(p, pr, pu, width, height, &camera->origin[k],
                 &camera->origin_x[k], &camera->origin_y[k]);
         axis_init(ql_asr64(narrow_field(c->d[k]), down),
@@ -83,6 +118,9 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
                 &camera->direction[k], &camera->direction_x[k],
                 &camera->direction_y[k]);
     }
+#if QL_CFG_LENS
+    camera->down = (uint8_t)down; /* <= 15: reach < 2^61 + 2^48 */
+#endif
     return true;
 }
 
@@ -181,16 +219,45 @@ static ql_pos_t to_position(int64_t q16)
     return (ql_pos_t)(p < 0 ? 0 : p > max ? max : p);
 }
 
-bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uq32_t u1, ql_uq32_t u2,
-        ql_ray_t *ray)
+#if QL_CFG_LENS
+/* Move the ray to a point (a, b) of the lens along one axis: a of s2.29. */
+static void lens_add(const ql_camera_t *camera, unsigned k, const ql_q29_t a[2],
+        int64_t *origin, int32_t *direction)
+{
+    const ql_blob_lens_t *lens = camera->lens;
+
+    for (unsigned i = 0; i < 2; i++) {
+        /* p in s31.16 = high 2^16 + low: products below 2^60 */
+        const int64_t p = ql_asr64(wide_field(lens->p[i][k]), 16);
+        const int64_t high = ql_asr64(p, 16), low = p & 0xffff;
+        const int64_t d = ql_i32(QL_LE32(lens->d[i][k]));
+
+        *origin += ql_asr64(high * a[i], 13) + ql_asr64(low * a[i], 29);
+        /* ql_camera_init() keeps the sum at 2^30 or below */
+        *direction += (int32_t)ql_asr64(d * a[i], 29u + camera->down);
+    }
+}
+#endif
+
+bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
+        ql_uniform2_t lens, ql_ray_t *ray)
 {
     const ql_camera_t *camera = pixel->camera;
     int64_t origin[3];
     int32_t direction[3];
-    const uint32_t right = u1 >> 17 << 1 | 1u; /* midpoints, u0.16 */
-    const uint32_t below = u2 >> 17 << 1 | 1u;
+    const uint32_t right = u.u1 >> 17 << 1 | 1u; /* midpoints, u0.16 */
+    const uint32_t below = u.u2 >> 17 << 1 | 1u;
     bool outside = false;
     ql_vec3_t d;
+#if QL_CFG_LENS
+    ql_q29_t at[2] = {0, 0};
+
+    if (camera->lens != NULL) {
+        ql_warp_disk(lens.u1, lens.u2, &at[0], &at[1]);
+    }
+#else
+    (void)lens;
+#endif
 
     for (unsigned k = 0; k < 3; k++) {
         origin[k] = pixel->origin[k] + part_of(camera->origin_x[k], right) +
@@ -198,17 +265,22 @@ bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uq32_t u1, ql_uq32_t u2,
         direction[k] = pixel->direction[k] +
                        (int32_t)part_of(camera->direction_x[k], right) +
                        (int32_t)part_of(camera->direction_y[k], below);
+#if QL_CFG_LENS
+        if (camera->lens != NULL) {
+            lens_add(camera, k, at, &origin[k], &direction[k]);
+        }
+#endif
         outside = outside || origin[k] < 0 || origin[k] > BOX_MAX_Q16;
     }
+    d.x = direction[0];
+    d.y = direction[1];
+    d.z = direction[2];
+    ray->direction = ql_dir_round(d);
     if (outside && !enter_box(origin, direction)) {
         return false;
     }
     ray->origin.x = to_position(origin[0]);
     ray->origin.y = to_position(origin[1]);
     ray->origin.z = to_position(origin[2]);
-    d.x = direction[0];
-    d.y = direction[1];
-    d.z = direction[2];
-    ray->direction = ql_dir_round(d);
     return true;
 }

@@ -4,6 +4,7 @@
 #ifndef QL_CAMERA_H
 #define QL_CAMERA_H
 
+#include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
 
@@ -16,6 +17,10 @@ typedef struct {
     int64_t direction[3]; /* s1.30 with 16 more fraction bits */
     int64_t direction_x[3];
     int64_t direction_y[3];
+#if QL_CFG_LENS
+    const ql_blob_lens_t *lens; /* NULL: a pinhole */
+    uint8_t down;               /* its d is 2^down times too long */
+#endif
 } ql_camera_t;
 
 /* One pixel of a picture: its corner and steps, at the precision of a ray. */
@@ -30,7 +35,8 @@ typedef struct {
  *   camera         -   out
  *   scene          -   open
  *   width, height  px  1..16384; pixels are square
- *   return         false if the picture reaches further than 2^30 grid units
+ *   return         false if the picture, with the lens, reaches further than
+ *                  2^30 grid units
  */
 QL_MUST_CHECK bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         uint16_t width, uint16_t height);
@@ -47,14 +53,17 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
 /* The ray through a point of a pixel, entering the box of the scene.
  *
  *   pixel   -     from ql_camera_pixel()
- *   u1, u2  uq32  where in the pixel: right and down from its corner
- *   ray     -     out, if true is returned
- *   return  false if the ray misses the box [0, 32767]^3
+ *   u       uq32  where in the pixel: right and down from its corner
+ *   lens    uq32  where on the lens; not used without one
+ *   ray     -     out; its origin only if true is returned
+ *   return  false if the ray misses the box [0, 32767]^3; its direction is that
+ *           of what is seen there
  *
  * Error: origin within an ulp of its format in each component, direction within
- *        that of ql_dir_round().
+ *        that of ql_dir_round(). A point of the lens is that of ql_warp_disk(),
+ *        cut to 2^-15 grid units and 2^-29 of a direction.
  */
-bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uq32_t u1, ql_uq32_t u2,
-        ql_ray_t *ray);
+bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
+        ql_uniform2_t lens, ql_ray_t *ray);
 
 #endif

@@ -1,8 +1,9 @@
-/* ql_light.c - discrete choice by power, uniform point on a triangle */
+/* ql_light.c - discrete choice of an emitter, uniform point on a triangle */
 /* SPDX-License-Identifier: MIT */
 
 #include "scene/ql_light.h"
 
+#include "base/ql_settings.h"
 #include "sample/ql_cdf.h"
 #include "sample/ql_warp.h"
 
@@ -27,14 +28,78 @@ QL_INLINE ql_pos_t blend(
 #endif
 }
 
-void ql_light_sample(const ql_scene_t *scene, ql_uq32_t pick, ql_uq32_t u1,
+uint16_t ql_light_choose(
+        const ql_scene_t *scene, unsigned choice, ql_uq32_t pick)
+{
+    if (scene->light_count < 2) {
+        return 0;
+    }
+    if (QL_CFG_STRATEGIES && choice == QL_LIGHTS_UNIFORM) {
+        return (uint16_t)ql_mulhi_u32(pick, scene->light_count);
+    }
+    return ql_cdf_sample(
+            &scene->lights->cum, LIGHT_WORDS, scene->light_count, pick);
+}
+
+#if QL_CFG_STRATEGIES
+/* ceil(i 2^32 / n) for i <= n: where equal shares begin; 0 for i = n = 2^32. */
+static uint32_t equal_bound(uint32_t i, uint32_t n)
+{
+    /* digit by digit in base 2^16, as i < 2^16 */
+    const uint32_t high = (i << 16) / n, rest = (i << 16) - high * n;
+    const uint32_t low = (rest << 16) / n;
+
+    return (high << 16 | low) + (low * n != rest << 16);
+}
+
+ql_real_t ql_light_weight(const ql_scene_t *scene, unsigned choice,
+        unsigned samples, uint16_t index)
+{
+    static const ql_real_t inv_2pi = {0xa2f9836eu, -34}; /* 1 / (2 pi) */
+    const uint32_t n = scene->light_count;
+    ql_real_t weight;
+
+    if (choice == QL_LIGHTS_POWER) {
+        weight = ql_light_power_weight(scene->lights + index);
+    } else {
+        weight = inv_2pi;
+    }
+    if (choice == QL_LIGHTS_UNIFORM && n > 1) {
+        /* the bound after the last is 2^32, which wraps */
+        const uint32_t share =
+                equal_bound((uint32_t)index + 1, n) - equal_bound(index, n);
+
+        weight = ql_real_mul(weight, ql_real_recip(ql_real_from_u64(share)));
+        weight.e = (int16_t)(weight.e + 32);
+    }
+    if (samples > 1) {
+        weight = ql_real_mul(weight, ql_real_recip(ql_real_from_u64(samples)));
+    }
+    return weight;
+}
+
+bool ql_light_find(const ql_scene_t *scene, uint16_t index, uint16_t *light)
+{
+    uint32_t low = 0, high = scene->light_count;
+
+    while (low < high) {
+        const uint32_t mid = (low + high) / 2;
+
+        if (QL_LE16(scene->lights[mid].triangle) < index) {
+            low = mid + 1;
+        } else {
+            high = mid;
+        }
+    }
+    *light = (uint16_t)low; /* <= light_count */
+    return low < scene->light_count &&
+           QL_LE16(scene->lights[low].triangle) == index;
+}
+#endif
+
+void ql_light_point(const ql_scene_t *scene, uint16_t index, ql_uq32_t u1,
         ql_uq32_t u2, ql_light_point_t *point)
 {
-    const uint16_t index =
-            scene->light_count < 2
-                    ? 0
-                    : ql_cdf_sample(&scene->lights->cum, LIGHT_WORDS,
-                              scene->light_count, pick);
     const ql_blob_light_t *light = scene->lights + index;
     const ql_blob_tri_t *tri = scene->triangles + QL_LE16(light->triangle);
     const ql_vec3_t v0 = ql_scene_corner(scene, tri, 0);
@@ -48,7 +113,5 @@ void ql_light_sample(const ql_scene_t *scene, ql_uq32_t pick, ql_uq32_t u1,
     point->q.z = blend(v0.z, e1.z, e2.z, b1, b2);
     point->corner = v0;
     point->n = ql_vec_cross(e1, e2);
-    point->weight.m = QL_LE32(light->weight_m);
-    point->weight.e = ql_i16(QL_LE16((uint16_t)light->weight_exp));
     point->material = ql_scene_material(scene, tri);
 }

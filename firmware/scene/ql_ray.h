@@ -14,18 +14,35 @@ typedef struct {
     ql_vec3_t direction; /* ql_dir_t; ql_pos_t for a segment */
 } ql_ray_t;
 
-/* The nearest triangle along a ray. */
+/* The nearest triangle or sphere along a ray. */
 typedef struct {
     uint16_t tri_idx;
-    bool front;  /* seen from its counter-clockwise side */
+    bool front;  /* seen from its counter-clockwise side, or from outside */
     ql_uq30_t t; /* hit = origin + t direction */
 } ql_hit_t;
 
-/* A point on a surface, moved to the side it was seen from. */
+/* A point on a surface, moved to the side it was seen from. The normal n
+ * decides sides, exactly: of a triangle e1 x e2, of a sphere the vector between
+ * centre and p in 1/256 grid units; turned to the side it was seen from. */
 typedef struct {
     ql_vec3_t p;    /* ql_pos_t: strictly on the side of n */
-    ql_vec3_t n;    /* e1 x e2, exact, turned to that side */
+    ql_vec3_t n;    /* exact, |n| < 2^31 */
     uint32_t inv_n; /* 1/|n|, packed as in ql_blob_tri_t */
+#if QL_CFG_SMOOTH
+    bool smooth;     /* the shading normal is not n */
+    ql_vec3_t shade; /* s2.29: unit shading normal if smooth; shade.n > 0 */
+#endif
 } ql_surface_t;
+
+/* Does its shading normal differ from its plane's? */
+QL_INLINE bool ql_surface_is_smooth(const ql_surface_t *surface)
+{
+#if QL_CFG_SMOOTH
+    return surface->smooth;
+#else
+    (void)surface;
+    return false;
+#endif
+}
 
 #endif

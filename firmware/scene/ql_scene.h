@@ -36,4 +36,32 @@ QL_INLINE const ql_blob_material_t *ql_scene_material(
     return scene->materials + (QL_LE16(tri->material) & 0x3fffu);
 }
 
+/* The sphere that an entry of the table of triangles is, or NULL. */
+QL_INLINE const ql_blob_sphere_t *ql_scene_sphere(
+        const ql_scene_t *scene, const ql_blob_tri_t *tri)
+{
+#if QL_CFG_SPHERES
+    return tri->inv_n == 0 ? scene->spheres + QL_LE16(tri->vertex[0]) : NULL;
+#else
+    (void)scene;
+    (void)tri;
+    return NULL;
+#endif
+}
+
+/* What a material is beyond diffuse; NULL for nothing. */
+QL_INLINE const ql_blob_gloss_t *ql_scene_gloss(
+        const ql_scene_t *scene, const ql_blob_material_t *material)
+{
+#if QL_GLOSS
+    const size_t index = (size_t)(material - scene->materials);
+
+    return index < scene->gloss_count ? scene->gloss + index : NULL;
+#else
+    (void)scene;
+    (void)material;
+    return NULL;
+#endif
+}
+
 #endif

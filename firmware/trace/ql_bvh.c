@@ -25,6 +25,7 @@
 #include "trace/ql_bvh.h"
 
 #include "math/ql_real.h"
+#include "trace/ql_sphere.h"
 #include "trace/ql_tri.h"
 
 #if QL_POS_BITS == 0
@@ -255,7 +256,22 @@ QL_INLINE void probe_shorten(probe_t *p, ql_uq30_t t)
     }
 }
 
-/* Test the triangles of a leaf; shorten the ray to the nearest hit. */
+#if QL_CFG_SPHERES
+/* As ql_tri_hit(): the ray parameter is a fraction here too. */
+QL_INLINE int sphere_hit(const ql_blob_sphere_t *sphere, const ql_ray_t *ray,
+        uint64_t *det, uint64_t *t)
+{
+    ql_uq30_t at = 0;
+    const int side = ql_sphere_hit(sphere, ray, &at);
+
+    *det = (uint64_t)1 << 30;
+    *t = at;
+    return side;
+}
+#endif
+
+/* Test the triangles and spheres of a leaf; shorten the ray to the nearest
+ * hit. */
 QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
         unsigned first, unsigned count, probe_t *p, ql_hit_t *hit)
 {
@@ -264,7 +280,13 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
 
     for (; tri < end; tri++) {
         uint64_t det, t;
+#if QL_CFG_SPHERES
+        const ql_blob_sphere_t *const sphere = ql_scene_sphere(scene, tri);
+        const int side = sphere != NULL ? sphere_hit(sphere, ray, &det, &t)
+                                        : ql_tri_hit(scene, tri, ray, &det, &t);
+#else
         const int side = ql_tri_hit(scene, tri, ray, &det, &t);
+#endif
 
         if (side != 0) {
             const ql_uq30_t at = parameter(t, det);
@@ -281,7 +303,7 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
 }
 
 QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
-        unsigned first, unsigned count)
+        uint16_t but, unsigned first, unsigned count)
 {
     const ql_blob_tri_t *tri = scene->triangles + first;
     const ql_blob_tri_t *const end = tri + count;
@@ -289,6 +311,19 @@ QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
     for (; tri < end; tri++) {
         uint64_t det, t;
 
+#if QL_CFG_SPHERES
+        const ql_blob_sphere_t *const sphere = ql_scene_sphere(scene, tri);
+
+        if (sphere != NULL) {
+            if ((uint16_t)(tri - scene->triangles) != but &&
+                    ql_sphere_blocks(sphere, ray)) {
+                return true;
+            }
+            continue;
+        }
+#else
+        (void)but;
+#endif
         if (ql_tri_hit(scene, tri, ray, &det, &t) != 0 && t < det) {
             return true;
         }
@@ -296,10 +331,11 @@ QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
     return false;
 }
 
-/* Walk the tree front to back. hit is NULL for an any-hit segment. Returns true
- * as soon as a segment is blocked. */
+/* Walk the tree front to back. hit is NULL for an any-hit segment, which a
+ * sphere at index but does not block. Returns true as soon as a segment is
+ * blocked. */
 QL_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit,
-        unsigned bits)
+        uint16_t but, unsigned bits)
 {
     uint32_t stack[QL_CFG_BVH_STACK];
     uint32_t *top = stack;
@@ -318,7 +354,7 @@ QL_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit,
         } else {
             if (hit != NULL) {
                 leaf_closest(scene, ray, link, meta - 3, &p, hit);
-            } else if (leaf_occluded(scene, ray, link, meta - 3)) {
+            } else if (leaf_occluded(scene, ray, but, link, meta - 3)) {
                 return true;
             }
             if (top == stack) {
@@ -351,25 +387,26 @@ bool ql_bvh_closest_hit(
     hit->front = false;
 #if QL_CFG_NODE16
     if (!QL_CFG_NODE8 || scene->node_bits == 16) {
-        (void)walk(scene, ray, hit, 16);
+        (void)walk(scene, ray, hit, 0, 16);
     }
 #endif
 #if QL_CFG_NODE8
     if (!QL_CFG_NODE16 || scene->node_bits == 8) {
-        (void)walk(scene, ray, hit, 8);
+        (void)walk(scene, ray, hit, 0, 8);
     }
 #endif
     return hit->t != NO_HIT;
 }
 
-bool ql_bvh_occluded(const ql_scene_t *scene, const ql_ray_t *ray)
+bool ql_bvh_occluded_but(
+        const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but)
 {
 #if QL_CFG_NODE16
     if (!QL_CFG_NODE8 || scene->node_bits == 16) {
-        return walk(scene, ray, NULL, 16);
+        return walk(scene, ray, NULL, but, 16);
     }
 #endif
 #if QL_CFG_NODE8
-    return walk(scene, ray, NULL, 8);
+    return walk(scene, ray, NULL, but, 8);
 #endif
 }

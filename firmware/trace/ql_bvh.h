@@ -7,16 +7,17 @@
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
 
-/* Find the nearest triangle along a ray.
+/* Find the nearest triangle or sphere along a ray.
  *
  *   scene   -  open
  *   ray     -  origin in the box; largest direction component 2^(b-1)..2^b
  *   hit     -  out: valid if true is returned
  *   return  true if anything is hit
  *
- * Exact: which triangles are hit. Among them the smallest t wins, of equals the
- * lowest index. Error: t within 2^-29 t + 2^-27 (tests/unit/test_bvh.c), far
- * below an ulp of the hit point.
+ * Exact: which triangles are hit. Among them the smallest t wins, as rounded,
+ * of equals the lowest index. Error: t within 2^-29 t + 2^-27
+ * (tests/unit/test_bvh.c), far below an ulp of the hit point; for spheres see
+ * ql_sphere_hit().
  * Cost: four bytes of stack for each of QL_CFG_BVH_STACK.
  */
 bool ql_bvh_closest_hit(
@@ -26,10 +27,18 @@ bool ql_bvh_closest_hit(
  *
  *   scene   -  open
  *   ray     -  segment from origin to origin + direction, both in the box
- *   return  true if a triangle is hit at 0 < t < 1
+ *   but     -  index of a sphere that does not count, as the segment aims at
+ *              the side that it shows; QL_TRI_MAX for none
+ *   return  true if a triangle or sphere is hit at 0 < t < 1
  *
- * Exact, for every segment.
+ * Exact, for every segment, of triangles; of spheres see ql_sphere_blocks().
  */
-bool ql_bvh_occluded(const ql_scene_t *scene, const ql_ray_t *ray);
+bool ql_bvh_occluded_but(
+        const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but);
+
+QL_INLINE bool ql_bvh_occluded(const ql_scene_t *scene, const ql_ray_t *ray)
+{
+    return ql_bvh_occluded_but(scene, ray, (uint16_t)QL_TRI_MAX);
+}
 
 #endif

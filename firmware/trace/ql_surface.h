@@ -17,13 +17,33 @@
  * The point is cut towards the ray's origin, so it stays in every axis-aligned
  * room the ray was in, then stepped along the dominant axis of the normal until
  * it is strictly on the side it was seen from: an exact test, no epsilon.
- * At most 2 steps were ever needed (tests/unit/test_surface.c); the loop ends
- * after QL_SIDE_STEPS_MAX whatever the triangle.
+ * At most 2 steps were ever needed (tests/unit/test_surface.c, test_sphere.c);
+ * the loop ends after QL_SIDE_STEPS_MAX whatever the triangle.
+ *
+ * A shading normal is interpolated between the corners' with the exact weights
+ * of the hit, on the side it was seen from. Where it is not above the surface
+ * itself, or a corner has none, the surface is flat.
+ * Error: of the shading normal, angle 2^-27 rad if those of the corners lean
+ *        less than a right angle, length 2^-25 (tests/unit/test_smooth.c).
  */
 void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
         const ql_hit_t *hit, ql_surface_t *surface);
 
 #define QL_SIDE_STEPS_MAX 4
+
+/* Bring a point of a surface to its other side, for a ray that passes through.
+ *
+ *   scene    -    open
+ *   tri_idx  -    what was hit
+ *   surface  -    from ql_surface_at()
+ *   p        pos  out: surface->p, stepped until strictly on the other side
+ *
+ * As exact as ql_surface_at(), and with the same limit of steps.
+ */
+#if QL_CFG_GLASS
+void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
+        const ql_surface_t *surface, ql_vec3_t *p);
+#endif
 
 /* Step p along the dominant axis of n until n.(p - on) > 0.
  *

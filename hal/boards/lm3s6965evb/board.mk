@@ -4,7 +4,7 @@ BOARD_CPU := -mcpu=cortex-m3 -mthumb
 BOARD_CORE := cortex-m3
 BOARD_MCU := lm3s6965
 BOARD_SRC := hal/cpu/ql_cortexm.c hal/drivers/ssd0323.c
-BOARD_STACK := 2048
+BOARD_STACK := 3072
 BOARD_SIZE := 128x64
 BOARD_SPP := 8
 BOARD_QEMU := qemu-system-arm -M lm3s6965evb

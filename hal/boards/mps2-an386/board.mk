@@ -5,7 +5,7 @@ BOARD_CORE := cortex-m4f
 BOARD_FPU := -mfloat-abi=hard -mfpu=fpv4-sp-d16
 BOARD_MCU := mps2
 BOARD_SRC := hal/cpu/ql_cortexm.c
-BOARD_STACK := 2048
+BOARD_STACK := 3072
 BOARD_SIZE := 64x64
 BOARD_SPP := 16
 BOARD_QEMU := qemu-system-arm -M mps2-an386

@@ -4,7 +4,7 @@ BOARD_CPU := -march=rv32imac -mabi=ilp32 -mcmodel=medany -msmall-data-limit=0
 BOARD_CORE := rv32imac
 BOARD_MCU := fe310
 BOARD_SRC := hal/cpu/ql_riscv.c
-BOARD_STACK := 2048
+BOARD_STACK := 3072
 BOARD_SIZE := 64x64
 BOARD_SPP := 4
 BOARD_QEMU := qemu-system-riscv32 -M sifive_e -bios none
