@@ -119,7 +119,7 @@ TEST(weights_are_one_over_two_pi_p)
 
 static void add_triangle(world_t *world, const double corners[3][3])
 {
-    world_face_t face = {{0, 0, 0}, 0};
+    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}};
 
     for (int i = 0; i < 3; i++) {
         face.vertex[i] = (uint32_t)world_add_vertex(world, corners[i]);
@@ -394,6 +394,7 @@ static void check_view(double ex, double ey, double ez, double fov, bool far)
     const world_camera_t camera = {
             {ex, ey, ez}, {0.5, 0.5, 0.5}, {0, 1, 0}, fov};
     ql_blob_camera_t c;
+    ql_blob_lens_t lens;
     double axes[3][3], length = 0, right = 0;
     world_t world;
     grid_t grid;
@@ -403,7 +404,7 @@ static void check_view(double ex, double ey, double ez, double fov, bool far)
     add_triangle(&world, corners[0]);
     add_triangle(&world, corners[1]);
     quantise(&grid, &world);
-    build_camera(&c, &world, &grid);
+    build_camera(&c, &lens, &world, &grid);
     for (int k = 0; k < 3; k++) {
         axes[2][k] = camera.look[k] - camera.eye[k];
         length += axes[2][k] * axes[2][k];
@@ -421,6 +422,10 @@ static void check_view(double ex, double ey, double ez, double fov, bool far)
         const int a = (k + 1) % 3, b = (k + 2) % 3;
 
         axes[1][k] = axes[0][a] * axes[2][b] - axes[0][b] * axes[2][a];
+    }
+    for (int i = 0; i < 6; i++) {
+        CHECK(lens.d[i / 3][i % 3] == 0 && wide(lens.p[i / 3][i % 3]) == 0,
+                "a pinhole has a lens");
     }
     CHECK(far == ((c.pr[0][0] | c.pr[1][0] | c.pr[2][0]) != 0),
             "origins %s a plane", far ? "should lie on" : "should not lie on");
@@ -441,6 +446,106 @@ TEST(camera_rays_are_those_of_a_pinhole)
     check_view(1000, 2000, 1500, 0.05, true);
     check_view(-1, 0.5, 0.5, 179, true);
     NOTE("54 rays");
+}
+
+/* ---- the lens ---- */
+
+/* A camera at the origin that looks along -z, so that right is x and up is y:
+ * the ray of picture point (x, y) and lens point (a, b) must pass through that
+ * lens point and through the point in focus of the pinhole's ray. */
+static void check_lens_ray(const ql_blob_camera_t *c,
+        const ql_blob_lens_t *lens, const world_t *world, const grid_t *grid,
+        const double s[4])
+{
+    const double slope = tan(world->camera.fov * (PI / 360));
+    const double unit = soft_double(grid->unit), f = world->lens.focus;
+    const double v[3] = {s[0] * slope, s[1] * slope, -1};
+    const double at[3] = {
+            s[2] * world->lens.radius, s[3] * world->lens.radius, 0};
+    double o[3], d[3], way[3], length = 0, along = 0, off = 0, dw = 0, dd = 0;
+
+    for (int k = 0; k < 3; k++) {
+        o[k] = wide(c->p[k]) + s[0] * wide(c->pr[k]) + s[1] * wide(c->pu[k]) +
+               s[2] * wide(lens->p[0][k]) + s[3] * wide(lens->p[1][k]);
+        d[k] = narrow(c->d[k]) + s[0] * narrow(c->dr[k]) +
+               s[1] * narrow(c->du[k]) + s[2] * narrow(lens->d[0][k]) +
+               s[3] * narrow(lens->d[1][k]);
+        /* seen from the lens point, in grid units */
+        o[k] -= (at[k] - soft_double(grid->origin[k])) / unit + GRID_LOW;
+        way[k] = (f * v[k] - at[k]) / unit;
+        length += way[k] * way[k];
+        along += o[k] * way[k];
+        dw += d[k] * way[k];
+        dd += d[k] * d[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const double rest = o[k] - along / length * way[k];
+
+        off += rest * rest;
+    }
+    CHECK(sqrt(off) < 1e-4, "origin is %g units off the ray", sqrt(off));
+    CHECK(dw > 0 && 1 - dw / sqrt(dd * length) < 1e-15,
+            "direction is off by %g", sqrt(2 - 2 * dw / sqrt(dd * length)));
+}
+
+/* In every component the format's bounds hold for the whole lens. */
+static void check_lens_bounds(
+        const ql_blob_camera_t *c, const ql_blob_lens_t *lens)
+{
+    for (int k = 0; k < 3; k++) {
+        const double d = fabs(narrow(c->d[k])) + 4 * fabs(narrow(c->dr[k])) +
+                         fabs(narrow(c->du[k])) + fabs(narrow(lens->d[0][k])) +
+                         fabs(narrow(lens->d[1][k]));
+        const double p = fabs(wide(c->p[k])) + 4 * fabs(wide(c->pr[k])) +
+                         fabs(wide(c->pu[k])) + fabs(wide(lens->p[0][k])) +
+                         fabs(wide(lens->p[1][k]));
+
+        CHECK(d < 0x1p30, "axis %d: direction reaches %g", k, d);
+        CHECK(p < 0x1p30, "axis %d: origin reaches %g", k, p);
+    }
+}
+
+/* A box from z = -near to -near - 2, seen through a lens. */
+static void check_lens(double near, double fov, double radius, double focus)
+{
+    static const double samples[][4] = {{0, 0, 0, 0}, {0, 0, 1, 0},
+            {0, 0, 0, -1}, {1, -1, 0.6, 0.8}, {-4, 1, -0.7, 0.7},
+            {0.3, 0.9, 0.1, -0.2}};
+    const double corners[3][3] = {
+            {-1, -1, -near}, {1, -1, -near - 2}, {0, 1, -near - 1}};
+    const world_camera_t camera = {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, fov};
+    ql_blob_camera_t c;
+    ql_blob_lens_t lens;
+    world_t world;
+    grid_t grid;
+
+    world_open(&world);
+    world.camera = camera;
+    world.lens.radius = radius;
+    world.lens.focus = focus;
+    add_triangle(&world, corners);
+    quantise(&grid, &world);
+    build_camera(&c, &lens, &world, &grid);
+    CHECK((near > 0.01) == (wide(c.pr[0]) != 0), "near %g", near);
+    check_lens_bounds(&c, &lens);
+    for (int i = 0; i < 6; i++) {
+        check_lens_ray(&c, &lens, &world, &grid, samples[i]);
+    }
+    grid_free(&grid);
+    world_free(&world);
+}
+
+TEST(rays_of_a_lens_meet_where_it_is_in_focus)
+{
+    check_lens(3, 40, 0.1, 4);
+    check_lens(3, 40, 0.1, 3); /* in focus before the box */
+    check_lens(3, 40, 2, 0.5); /* ... and far before it */
+    check_lens(3, 10, 1e-3, 1e6);
+    check_lens(-1, 60, 0.05, 1); /* from inside */
+    check_lens(-1, 60, 5, 1);    /* wider than what it sees */
+    check_lens(500, 0.3, 10, 501);
+    check_lens(3, 150, 20, 0.1); /* 200 times its focus */
+    NOTE("48 rays");
 }
 
 /* ---- empty and dark scenes ---- */
@@ -503,6 +608,7 @@ int main(int argc, char **argv)
     RUN(more_than_65535_vertices_use_pages);
     RUN(scenes_of_any_size_anywhere_fill_the_grid);
     RUN(camera_rays_are_those_of_a_pinhole);
+    RUN(rays_of_a_lens_meet_where_it_is_in_focus);
     RUN(empty_scenes_open);
     RUN(faint_emission_does_not_vanish);
     return TEST_END();

@@ -169,6 +169,46 @@ TEST(wide_integers_divide_and_take_roots_exactly)
     NOTE("20000 inputs");
 }
 
+TEST(sines_of_half_turns_agree_with_libm)
+{
+    double worst = 0;
+
+    for (int n = 1; n <= 4096; n = n < 8 ? n + 1 : 2 * n) {
+        for (int i = 0; i < n; i++) {
+            const double x = (i + 0.5) / n;
+            const double got = soft_double(soft_sin_pi(
+                    soft_div(soft_int(2 * i + 1, -1), soft_int(n, 0))));
+            const double off = fabs(got - sin(x * 3.14159265358979323846));
+
+            worst = off > worst ? off : worst;
+        }
+    }
+    /* libm's half an ulp and that of its argument, up to pi */
+    CHECK(worst < 4e-16, "off by %g", worst);
+    NOTE("worst %.2g", worst);
+}
+
+TEST(floors_of_soft_numbers_are_exact)
+{
+    for (int e = -70; e <= 64; e++) {
+        const soft_t a = {false, e, 0xc90fdaa22168c235u};
+        const u128_t got = soft_floor(a);
+        u128_t wanted = {0, 0};
+
+        for (int bit = 0; bit < 64; bit++) {
+            const int to = bit + e;
+
+            if ((a.m >> bit & 1) != 0 && to >= 0) {
+                wanted.low |= to < 64 ? (uint64_t)1 << to : 0;
+                wanted.high |= to >= 64 ? (uint64_t)1 << (to - 64) : 0;
+            }
+        }
+        CHECK(u128_compare(got, wanted) == 0, "2^%d: %llx%016llx", e,
+                (unsigned long long)got.high, (unsigned long long)got.low);
+    }
+    CHECK(soft_floor(soft_int(0, 0)).low == 0, "0");
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/scene_soft", argc, argv);
@@ -178,6 +218,8 @@ int main(int argc, char **argv)
     RUN(division_undoes_multiplication_of_integers);
     RUN(rounding_goes_to_nearest_with_halves_away_from_zero);
     RUN(tan_of_half_an_angle_agrees_with_libm);
+    RUN(sines_of_half_turns_agree_with_libm);
+    RUN(floors_of_soft_numbers_are_exact);
     RUN(wide_integers_divide_and_take_roots_exactly);
     return TEST_END();
 }

@@ -68,14 +68,7 @@ static box_t box_of_face(const grid_t *grid, const grid_face_t *face)
 {
     box_t box;
 
-    box_empty(&box);
-    for (int i = 0; i < 3; i++) {
-        box_t point;
-
-        memcpy(point.low, grid->vertices[face->vertex[i]], sizeof point.low);
-        memcpy(point.high, point.low, sizeof point.high);
-        box_add(&box, &point);
-    }
+    grid_box(grid, face, box.low, box.high);
     return box;
 }
 

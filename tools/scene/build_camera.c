@@ -9,6 +9,7 @@
 #define EYE_MAX        ((int64_t)1 << 20) /* grid units, beside the box */
 #define REACH_MAX      ((int64_t)1 << 30) /* grid units, of an origin */
 #define ASPECT_LEAST   4
+#define LENS_MOST      256 /* radius over focus */
 
 typedef struct {
     soft_t k[3];
@@ -65,14 +66,18 @@ static vector_t from_doubles(const double a[3])
     return v;
 }
 
-/* Forward; right and up already times tan(fov / 2). */
+/* Forward; right and up already times tan(fov / 2). A lens is two half axes of
+ * its rim in grid units, and what each takes from directions; 0 if none. */
 typedef struct {
     vector_t forward, right, up;
+    vector_t rim[2], tilt[2];
 } frame_t;
 
-static frame_t frame_of(const world_camera_t *camera)
+static frame_t frame_of(const world_t *world, const grid_t *grid)
 {
+    const world_camera_t *camera = &world->camera;
     const soft_t tangent = soft_tan_half(soft_from(camera->fov));
+    const soft_t radius = soft_from(world->lens.radius);
     vector_t view = from_doubles(camera->look);
     frame_t frame;
 
@@ -81,7 +86,18 @@ static frame_t frame_of(const world_camera_t *camera)
     }
     frame.forward = unit(view);
     frame.right = unit(cross(frame.forward, from_doubles(camera->up)));
-    frame.up = scale(cross(frame.right, frame.forward), tangent);
+    frame.up = cross(frame.right, frame.forward);
+    for (int i = 0; i < 2; i++) {
+        const vector_t axis = i == 0 ? frame.right : frame.up;
+        const soft_t zero = soft_int(0, 0);
+
+        frame.rim[i] = scale(axis, soft_div(radius, grid->unit));
+        frame.tilt[i] = scale(
+                axis, radius.m == 0 ? zero
+                                    : soft_negate(soft_div(radius,
+                                              soft_from(world->lens.focus))));
+    }
+    frame.up = scale(frame.up, tangent);
     frame.right = scale(frame.right, tangent);
     return frame;
 }
@@ -99,9 +115,9 @@ static int64_t size_of(int64_t x)
     return x < 0 ? -x : x;
 }
 
-/* Round the three directions at 2^bits; true if their sums stay in bounds. */
-static bool round_directions(ql_blob_camera_t *camera, const frame_t *frame,
-        int bits, int64_t aspect)
+/* Round the directions at 2^bits; true if their sums stay in bounds. */
+static bool round_directions(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
+        const frame_t *frame, int bits, int64_t aspect)
 {
     bool fits = true;
 
@@ -109,14 +125,20 @@ static bool round_directions(ql_blob_camera_t *camera, const frame_t *frame,
         const int64_t d = soft_round(frame->forward.k[k], bits);
         const int64_t dr = soft_round(frame->right.k[k], bits);
         const int64_t du = soft_round(frame->up.k[k], bits);
+        const int64_t da = soft_round(frame->tilt[0].k[k], bits);
+        const int64_t db = soft_round(frame->tilt[1].k[k], bits);
         const int64_t limit = (int64_t)1 << DIRECTION_BITS;
 
         /* each below 2^46 by the range of bits tried and of tan */
         fits = fits && size_of(dr) < limit && size_of(du) < limit &&
-               size_of(d) + aspect * size_of(dr) + size_of(du) < limit;
+               size_of(d) + aspect * size_of(dr) + size_of(du) + size_of(da) +
+                               size_of(db) <
+                       limit;
         camera->d[k] = (uint32_t)(uint64_t)d;
         camera->dr[k] = (uint32_t)(uint64_t)dr;
         camera->du[k] = (uint32_t)(uint64_t)du;
+        lens->d[0][k] = (uint32_t)(uint64_t)da;
+        lens->d[1][k] = (uint32_t)(uint64_t)db;
     }
     return fits;
 }
@@ -178,17 +200,29 @@ camera_fail(const world_t *world, const char *expected)
             expected);
 }
 
-static void check_reach(const world_t *world, const vector_t *p,
-        const vector_t *pr, const vector_t *pu, int64_t aspect)
+static soft_t absolute(soft_t a)
+{
+    a.negative = false;
+    return a;
+}
+
+/* Where rays begin, in grid units. */
+typedef struct {
+    vector_t p, pr, pu, rim[2];
+} origins_t;
+
+static void check_reach(
+        const world_t *world, const origins_t *o, int64_t aspect)
 {
     const soft_t limit = soft_int(REACH_MAX, 0);
 
     for (int k = 0; k < 3; k++) {
-        soft_t reach = soft_mul(pr->k[k], soft_int(aspect, 0));
+        soft_t reach = soft_mul(absolute(o->pr.k[k]), soft_int(aspect, 0));
 
-        reach.negative = false;
-        reach = soft_add(reach, (soft_t){false, pu->k[k].e, pu->k[k].m});
-        reach = soft_add(reach, (soft_t){false, p->k[k].e, p->k[k].m});
+        reach = soft_add(reach, absolute(o->pu.k[k]));
+        reach = soft_add(reach, absolute(o->p.k[k]));
+        reach = soft_add(reach, absolute(o->rim[0].k[k]));
+        reach = soft_add(reach, absolute(o->rim[1].k[k]));
         if (soft_compare(reach, limit) >= 0) {
             camera_fail(world, "a picture at most 2^15 times as large as "
                                "the scene in it: move the camera nearer");
@@ -196,31 +230,77 @@ static void check_reach(const world_t *world, const vector_t *p,
     }
 }
 
-void build_camera(
-        ql_blob_camera_t *camera, const world_t *world, const grid_t *grid)
+/* The eye and the lens around it, if the box is not all before them. */
+static void check_eye(const world_t *world, const origins_t *o)
 {
-    const frame_t frame = frame_of(&world->camera);
-    const int64_t aspect = aspect_of(world);
-    vector_t p = eye_on_grid(world, grid), pr, pu;
-    const soft_t depth = nearest_depth(grid, p, frame.forward);
-    int bits = DIRECTION_BITS;
+    for (int k = 0; k < 3; k++) {
+        const soft_t rim =
+                soft_add(absolute(o->rim[0].k[k]), absolute(o->rim[1].k[k]));
 
-    while (!round_directions(camera, &frame, bits, aspect)) {
-        bits--;
-    }
-    for (int k = 0; k < 3 && depth.m == 0; k++) {
-        if (size_of(soft_round(p.k[k], 0)) > EYE_MAX) {
+        if (soft_round(soft_add(absolute(o->p.k[k]), rim), 0) > EYE_MAX) {
             camera_fail(world, "an eye beside the scene at most 32 times its "
                                "size away: move it nearer");
         }
     }
-    p = add(p, scale(frame.forward, depth));
-    pr = scale(frame.right, depth);
-    pu = scale(frame.up, depth);
-    check_reach(world, &p, &pr, &pu, aspect);
+}
+
+static void check_lens(const world_t *world)
+{
+    const soft_t most =
+            soft_mul(soft_from(world->lens.focus), soft_int(LENS_MOST, 0));
+
+    if (world->lens.radius > 0 &&
+            soft_compare(soft_from(world->lens.radius), most) > 0) {
+        cli_fail(CLI_INPUT,
+                "%s:%u: expected a lens at most %d times as wide "
+                "as its focus is far",
+                world->path, world->lens_line, LENS_MOST);
+    }
+}
+
+/* On the plane at depth, on which every ray begins: the point of the pinhole's
+ * ray, moved by the lens as much as is left there of where it is at the eye. */
+static origins_t origins_at(const world_t *world, const grid_t *grid,
+        const frame_t *frame, vector_t eye, soft_t depth)
+{
+    const soft_t far = soft_div(
+            depth, world->lens.radius > 0
+                           ? soft_div(soft_from(world->lens.focus), grid->unit)
+                           : soft_int(1, 0));
+    const soft_t left = soft_sub(soft_int(1, 0), far);
+    origins_t o;
+
+    o.p = add(eye, scale(frame->forward, depth));
+    o.pr = scale(frame->right, depth);
+    o.pu = scale(frame->up, depth);
+    o.rim[0] = scale(frame->rim[0], left);
+    o.rim[1] = scale(frame->rim[1], left);
+    return o;
+}
+
+void build_camera(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
+        const world_t *world, const grid_t *grid)
+{
+    const frame_t frame = frame_of(world, grid);
+    const int64_t aspect = aspect_of(world);
+    const vector_t eye = eye_on_grid(world, grid);
+    const soft_t depth = nearest_depth(grid, eye, frame.forward);
+    const origins_t o = origins_at(world, grid, &frame, eye, depth);
+    int bits = DIRECTION_BITS;
+
+    check_lens(world);
+    while (!round_directions(camera, lens, &frame, bits, aspect)) {
+        bits--;
+    }
+    if (depth.m == 0) {
+        check_eye(world, &o);
+    }
+    check_reach(world, &o, aspect);
     for (int k = 0; k < 3; k++) {
-        put_wide(camera->p[k], soft_round(p.k[k], 32));
-        put_wide(camera->pr[k], soft_round(pr.k[k], 32));
-        put_wide(camera->pu[k], soft_round(pu.k[k], 32));
+        put_wide(camera->p[k], soft_round(o.p.k[k], 32));
+        put_wide(camera->pr[k], soft_round(o.pr.k[k], 32));
+        put_wide(camera->pu[k], soft_round(o.pu.k[k], 32));
+        put_wide(lens->p[0][k], soft_round(o.rim[0].k[k], 32));
+        put_wide(lens->p[1][k], soft_round(o.rim[1].k[k], 32));
     }
 }

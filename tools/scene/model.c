@@ -7,8 +7,11 @@
 #include <string.h>
 
 #include "build_camera.h"
-#include "build_cdf.h"
+#include "build_gloss.h"
+#include "build_lights.h"
 #include "build_nodes.h"
+#include "build_sky.h"
+#include "add_table.h"
 #include "cli.h"
 #include "scene_features.h"
 
@@ -90,20 +93,36 @@ static void turn_page(pager_t *pager, model_t *model, const grid_face_t *face)
     }
 }
 
+static void place_vertex(model_t *model, const grid_t *grid, uint32_t v)
+{
+    const uint32_t i = model->vertex_count;
+
+    memcpy(model->vertices[i].xyz, grid->vertices[v],
+            sizeof model->vertices->xyz);
+    if (model->normals != NULL) {
+        memcpy(model->normals[i].xyz, grid->normals[v],
+                sizeof model->normals->xyz);
+    }
+}
+
 static void place_triangle(model_t *model, pager_t *pager, const grid_t *grid,
         const grid_face_t *face)
 {
     ql_blob_tri_t *tri = model->triangles + model->triangle_count++;
     int64_t n[3];
 
+    if (face->sphere != 0) { /* the rest is 0 */
+        tri->vertex[0] = (uint16_t)(face->sphere - 1);
+        return;
+    }
     turn_page(pager, model, face);
+    tri->material = (uint16_t)(pager->page << 14);
     for (int i = 0; i < 3; i++) {
         const uint32_t v = face->vertex[i];
 
         if (!is_placed(pager, v)) {
-            pager->place[v] = model->vertex_count;
-            memcpy(model->vertices[model->vertex_count++].xyz,
-                    grid->vertices[v], sizeof model->vertices->xyz);
+            place_vertex(model, grid, v);
+            pager->place[v] = model->vertex_count++;
         }
         tri->vertex[i] = (uint16_t)(pager->place[v] & 0xffffu);
     }
@@ -122,20 +141,29 @@ static void place_triangles(
     /* at most three vertices a triangle and three a turned page are wasted, but
      * for filler that four pages bound */
     model->vertices = cli_alloc(3 * (size_t)n + 16, sizeof *model->vertices);
+    if (grid->normals != NULL) {
+        model->normals = cli_alloc(3 * (size_t)n + 16, sizeof *model->normals);
+    }
     model->triangles = cli_alloc(n, sizeof *model->triangles);
     for (uint32_t i = 0; i < n; i++) {
         place_triangle(model, &pager, grid, grid->faces + bvh->order[i]);
-        model->triangles[i].material = (uint16_t)(pager.page << 14);
     }
     free(pager.place);
+    model->normals_count = grid->normals != NULL ? model->vertex_count : 0;
+    model->spheres_count = grid->sphere_count;
+    model->spheres = cli_alloc(grid->sphere_count, sizeof *model->spheres);
+    if (grid->sphere_count > 0) {
+        memcpy(model->spheres, grid->spheres,
+                grid->sphere_count * sizeof *model->spheres);
+    }
 }
 
 /* ---- materials ---- */
 
-/* Smallest exponent for which every Ke fits u0.32; 0 without lights. */
+/* Smallest exponent for which every Ke and the sky fit u0.32; 0 without any. */
 static int radiance_exponent(const world_t *world, const bool *used)
 {
-    soft_t most = soft_int(0, 0);
+    soft_t most = sky_most(&world->sky);
     int e = -RADIANCE_EXP_MAX;
 
     for (size_t m = 0; m < world->material_count; m++) {
@@ -152,45 +180,60 @@ static int radiance_exponent(const world_t *world, const bool *used)
     while (soft_compare(most, soft_int(0xffffffff, e - 32)) > 0) {
         e++;
     }
-    return e; /* Ke is at most 1e18 < 2^60 */
+    return e; /* Ke and sky are at most 1e18 < 2^60 */
 }
 
-static void round_material(ql_blob_material_t *out,
+static void round_emission(uint32_t emission[3],
         const world_material_t *material, int radiance_exp)
 {
     for (int k = 0; k < 3; k++) {
         const soft_t ke = soft_from(material->ke[k]);
-        int64_t emission = soft_round(ke, 32 - radiance_exp);
+        const int64_t rounded = soft_round(ke, 32 - radiance_exp);
 
         /* what shines must not stop to do so; 2^32 cannot be reached */
-        emission = emission == 0 && ke.m != 0 ? 1 : emission;
-        out->albedo[k] = (uint32_t)soft_round(soft_from(material->kd[k]), 31);
-        out->emission[k] = (uint32_t)emission;
+        emission[k] = rounded == 0 && ke.m != 0 ? 1 : (uint32_t)rounded;
     }
 }
 
-/* Keep the materials that a triangle uses, in the order of their definition. */
+/* Add the materials in use that have gloss, or those that have none, in the
+ * order of their definition. */
+static void place_kind(model_t *model, const world_t *world, const bool *used,
+        uint32_t *place, bool glossy)
+{
+    for (size_t m = 0; m < world->material_count; m++) {
+        ql_blob_material_t material;
+        ql_blob_gloss_t gloss;
+
+        if (!used[m] || gloss_round(material.albedo, &gloss,
+                                world->materials + m) != glossy) {
+            continue;
+        }
+        round_emission(material.emission, world->materials + m,
+                model->header.radiance_exp);
+        if (glossy) {
+            model->gloss[model->gloss_count++] = gloss;
+        }
+        place[m] = model->material_count;
+        model->materials[model->material_count++] = material;
+    }
+}
+
+/* Keep the materials that a face uses: those with gloss come first. */
 static void place_materials(model_t *model, const world_t *world,
         const grid_t *grid, const bvh_t *bvh)
 {
-    bool *used = cli_alloc(world->material_count, sizeof *used);
-    uint32_t *place = cli_alloc(world->material_count, sizeof *place);
-    int e;
+    const size_t count = world->material_count;
+    bool *used = cli_alloc(count, sizeof *used);
+    uint32_t *place = cli_alloc(count, sizeof *place);
 
     for (uint32_t i = 0; i < grid->face_count; i++) {
         used[grid->faces[i].material] = true;
     }
-    e = radiance_exponent(world, used);
-    model->header.radiance_exp = (int16_t)e;
-    model->materials =
-            cli_alloc(world->material_count, sizeof *model->materials);
-    for (size_t m = 0; m < world->material_count; m++) {
-        place[m] = model->material_count;
-        if (used[m]) {
-            round_material(model->materials + model->material_count++,
-                    world->materials + m, e);
-        }
-    }
+    model->header.radiance_exp = (int16_t)radiance_exponent(world, used);
+    model->materials = cli_alloc(count, sizeof *model->materials);
+    model->gloss = cli_alloc(count, sizeof *model->gloss);
+    place_kind(model, world, used, place, true);
+    place_kind(model, world, used, place, false);
     if (model->material_count > QL_MATERIAL_MAX) {
         cli_fail(CLI_INPUT, "%s: expected %lu materials at most, found %lu",
                 world->path, (unsigned long)QL_MATERIAL_MAX,
@@ -204,60 +247,6 @@ static void place_materials(model_t *model, const world_t *world,
     }
     free(place);
     free(used);
-}
-
-/* ---- lights ---- */
-
-/* Radiance units of all channels of a triangle's material; < 2^34. */
-static uint64_t emission_of(const model_t *model, uint32_t tri)
-{
-    const ql_blob_material_t *material =
-            model->materials + (model->triangles[tri].material & 0x3fffu);
-
-    return (uint64_t)material->emission[0] + material->emission[1] +
-           material->emission[2];
-}
-
-/* Twice the area with 32 fraction bits, below 2^63, times the emission. */
-static u128_t power_of(
-        const grid_t *grid, const grid_face_t *face, uint64_t emission)
-{
-    u128_t square = {0, 0};
-    int64_t n[3];
-
-    grid_normal(grid, face, n);
-    square.high = square_of(n);
-    return u128_mul(u128_sqrt(square), emission);
-}
-
-static void place_lights(model_t *model, const grid_t *grid, const bvh_t *bvh)
-{
-    u128_t *power = cli_alloc(model->triangle_count, sizeof *power);
-    uint64_t *shares = cli_alloc(model->triangle_count, sizeof *shares);
-    uint64_t sum = 0;
-
-    model->lights = cli_alloc(model->triangle_count, sizeof *model->lights);
-    for (uint32_t i = 0; i < model->triangle_count; i++) {
-        const uint64_t emission = emission_of(model, i);
-
-        if (emission > 0) {
-            power[model->light_count] =
-                    power_of(grid, grid->faces + bvh->order[i], emission);
-            model->lights[model->light_count++].triangle = (uint16_t)i;
-        }
-    }
-    if (model->light_count > 0) {
-        cdf_shares(shares, power, model->light_count);
-    }
-    for (uint32_t i = 0; i < model->light_count; i++) {
-        ql_blob_light_t *light = model->lights + i;
-
-        light->cum = (uint32_t)sum;
-        sum += shares[i];
-        cdf_weight(shares[i], &light->weight_m, &light->weight_exp);
-    }
-    free(shares);
-    free(power);
 }
 
 /* ---- tree and header ---- */
@@ -307,10 +296,16 @@ void model_build(model_t *model, const world_t *world, const grid_t *grid,
         const bvh_t *bvh, unsigned node_bits)
 {
     memset(model, 0, sizeof *model);
-    build_camera(&model->camera, world, grid);
+    model->lens = cli_alloc(1, sizeof *model->lens);
+    model->lens_count = world->lens.radius > 0;
+    build_camera(&model->camera, model->lens, world, grid);
     place_triangles(model, grid, bvh);
     place_materials(model, world, grid, bvh);
-    place_lights(model, grid, bvh);
+    for (size_t i = 0; i < world->table_count; i++) {
+        add_table(model, world->tables + i, world->path);
+    }
+    build_sky(model, world);
+    build_lights(model, grid, bvh, world->path);
     place_nodes(model, bvh, node_bits);
     fill_header(model, world, grid);
 }
@@ -323,5 +318,8 @@ void model_free(model_t *model)
     free(model->pairs8);
     free(model->materials);
     free(model->lights);
+#define FREE_MORE(name, type, bits) free(model->name);
+    QL_BLOB_MORE_LIST(FREE_MORE)
+#undef FREE_MORE
     memset(model, 0, sizeof *model);
 }

@@ -26,6 +26,12 @@ typedef struct {
     ql_blob_pair8_t *pairs8;   /* NULL with 16-bit nodes */
     ql_blob_material_t *materials;
     ql_blob_light_t *lights;
+    /* the tables of features: name and name_count of each, NULL if not there */
+#define MODEL_MORE(name, type, bits)                                           \
+    type *name;                                                                \
+    uint32_t name##_count;
+    QL_BLOB_MORE_LIST(MODEL_MORE)
+#undef MODEL_MORE
 } model_t;
 
 #define MODEL_LEAF8_MAX 12 /* 3 + n must fit the nibble of an 8-bit node */
@@ -41,8 +47,8 @@ unsigned model_node_bits(const model_t *model);
  *   bvh        -        tree over the grid
  *   node_bits  8 or 16
  *
- * Fails: exit 2 for a camera too far away, too many materials, or a Ke that no
- *        block exponent reaches.
+ * Fails: exit 2 for a camera too far away, a lens too wide, too many materials,
+ *        lights or table words, or a sky too dim beside its lights.
  */
 void model_build(model_t *model, const world_t *world, const grid_t *grid,
         const bvh_t *bvh, unsigned node_bits);

@@ -10,15 +10,27 @@
 #include "cli.h"
 #include "dump_blob.h"
 
+#define MORE_MAX (1u << 28) /* entries of a table of a feature */
+
 /* A table being read: entries in use, room for more. */
 typedef struct {
     size_t count, capacity;
 } table_t;
 
+/* Keys that stand once in a dump: those of the header and the camera, which
+ * every dump has, then those of a lens. */
+enum {
+    SINGLE_COUNT = 17,
+    SINGLE_NEEDED = (1 << 13) - 1,
+    SINGLE_LENS = 15 << 13
+};
+
 typedef struct {
     text_t *text;
     model_t *model;
     table_t vertices, triangles, nodes16, pairs8, materials, lights;
+    table_t normals, gloss, spheres, sky, texels, tables, words, lens;
+    ql_blob_lens_t lens_read;
     unsigned children; /* n8 lines the last p8 line has had */
     uint32_t seen;     /* bits of single keys */
 } parser_t;
@@ -110,6 +122,7 @@ static void parse_single(parser_t *p, int key)
     ql_blob_camera_t *camera = &p->model->camera;
     uint32_t(*const wide[3])[2] = {camera->p, camera->pr, camera->pu};
     uint32_t *const narrow[3] = {camera->d, camera->dr, camera->du};
+    ql_blob_lens_t *lens = &p->lens_read;
 
     switch (key) {
     case 0:
@@ -141,8 +154,17 @@ static void parse_single(parser_t *p, int key)
     case 9:
         get_wide(p, wide[key - 7]);
         break;
-    default:
+    case 10:
+    case 11:
+    case 12:
         get_triple32(p, "a direction", narrow[key - 10]);
+        break;
+    case 13:
+    case 14:
+        get_wide(p, lens->p[key - 13]);
+        break;
+    default:
+        get_triple32(p, "a direction", lens->d[key - 15]);
     }
 }
 
@@ -151,9 +173,9 @@ static bool parse_header_line(parser_t *p, const char *key)
 {
     static const char *const keys[] = {"features", "depth", "root",
             "radiance_exp", "exposure_q8", "image", "unit", "p", "pr", "pu",
-            "d", "dr", "du"};
+            "d", "dr", "du", "pa", "pb", "da", "db"};
 
-    for (int i = 0; i < 13; i++) {
+    for (int i = 0; i < SINGLE_COUNT; i++) {
         if (strcmp(key, keys[i]) == 0) {
             if ((p->seen & 1u << i) != 0) {
                 text_fail(p->text, "expected one '%s', found a second", key);
@@ -269,6 +291,89 @@ static void parse_light(parser_t *p)
     light->triangle = get16(p, "a triangle");
 }
 
+/* ---- tables of features ---- */
+
+static void parse_normal(parser_t *p)
+{
+    model_t *m = p->model;
+
+    m->normals = append(m->normals, &p->normals, sizeof *m->normals);
+    for (int k = 0; k < 3; k++) {
+        m->normals[p->normals.count - 1].xyz[k] = get_signed(p, "a normal");
+    }
+}
+
+static void parse_gloss(parser_t *p)
+{
+    model_t *m = p->model;
+    ql_blob_gloss_t *gloss;
+
+    m->gloss = append(m->gloss, &p->gloss, sizeof *m->gloss);
+    gloss = m->gloss + p->gloss.count - 1;
+    get_triple32(p, "the specular colour", gloss->specular);
+    gloss->parameter = get32(p, "the parameter");
+    gloss->chance = get32(p, "the chance");
+    gloss->kind = get16(p, "the kind");
+}
+
+static void parse_sphere(parser_t *p)
+{
+    model_t *m = p->model;
+    ql_blob_sphere_t *sphere;
+
+    m->spheres = append(m->spheres, &p->spheres, sizeof *m->spheres);
+    sphere = m->spheres + p->spheres.count - 1;
+    get_triple32(p, "the centre", sphere->centre);
+    sphere->radius = get32(p, "the radius");
+}
+
+static void parse_sky(parser_t *p)
+{
+    model_t *m = p->model;
+    ql_blob_sky_t *sky;
+
+    m->sky = append(m->sky, &p->sky, sizeof *m->sky);
+    sky = m->sky + p->sky.count - 1;
+    get_triple32(p, "the emission", sky->emission);
+    sky->rotate = get32(p, "the rotation");
+    sky->width = get16(p, "the width");
+    sky->height = get16(p, "the height");
+    sky->table = get16(p, "the table");
+}
+
+/* As many as the line has, one or more. */
+static void parse_texels(parser_t *p)
+{
+    model_t *m = p->model;
+
+    do {
+        m->texels = append(m->texels, &p->texels, sizeof *m->texels);
+        m->texels[p->texels.count - 1].rgb9e5 = get32(p, "a texel");
+    } while (*p->text->rest != '\0');
+}
+
+static void parse_table(parser_t *p)
+{
+    model_t *m = p->model;
+    ql_blob_distribution_t *table;
+
+    m->tables = append(m->tables, &p->tables, sizeof *m->tables);
+    table = m->tables + p->tables.count - 1;
+    table->first = get32(p, "the first word");
+    table->dims = get16(p, "the dimensions");
+    get_triple16(p, "the cells", table->count);
+}
+
+static void parse_words(parser_t *p)
+{
+    model_t *m = p->model;
+
+    do {
+        m->words = append(m->words, &p->words, sizeof *m->words);
+        m->words[p->words.count - 1] = get16(p, "a word");
+    } while (*p->text->rest != '\0');
+}
+
 static void parse_line(parser_t *p, const char *key)
 {
     static const struct {
@@ -276,7 +381,9 @@ static void parse_line(parser_t *p, const char *key)
         void (*parse)(parser_t *);
     } entries[] = {{"v", parse_vertex}, {"t", parse_triangle},
             {"n", parse_node16}, {"p8", parse_pair8}, {"n8", parse_node8},
-            {"m", parse_material}, {"l", parse_light}};
+            {"m", parse_material}, {"l", parse_light}, {"vn", parse_normal},
+            {"g", parse_gloss}, {"s", parse_sphere}, {"sky", parse_sky},
+            {"x", parse_texels}, {"table", parse_table}, {"w", parse_words}};
 
     if (parse_header_line(p, key)) {
         return;
@@ -290,14 +397,50 @@ static void parse_line(parser_t *p, const char *key)
     text_fail(p->text, "expected a key of a dump, found '%s'", key);
 }
 
+/* Four lines are the one entry of the table. */
+static void finish_lens(parser_t *p)
+{
+    model_t *m = p->model;
+
+    if ((p->seen & SINGLE_LENS) == 0) {
+        return;
+    }
+    if ((p->seen & SINGLE_LENS) != SINGLE_LENS) {
+        text_fail(p->text, "expected pa, pb, da and db or none of them");
+    }
+    m->lens = append(m->lens, &p->lens, sizeof *m->lens);
+    *m->lens = p->lens_read;
+}
+
+/* Every table of a feature is there, and no other. */
+static void finish_more(parser_t *p)
+{
+    model_t *m = p->model;
+    const uint32_t features = m->header.features;
+
+#define FINISH_MORE(name, type, bits)                                          \
+    if ((p->name.count > 0) != ((features & (uint32_t)(bits)) != 0)) {         \
+        text_fail(p->text,                                                     \
+                "expected " #name " if and only if a feature needs them");     \
+    }                                                                          \
+    if (p->name.count > MORE_MAX) {                                            \
+        text_fail(p->text, "expected at most %u " #name, MORE_MAX);            \
+    }                                                                          \
+    m->name##_count = (uint32_t)p->name.count;
+    QL_BLOB_MORE_LIST(FINISH_MORE)
+#undef FINISH_MORE
+}
+
 static void finish(parser_t *p)
 {
     model_t *m = p->model;
     const bool node8 = (m->header.features & QL_FEATURE_NODE8) != 0;
 
-    if (p->seen != (1u << 13) - 1) {
+    if ((p->seen & SINGLE_NEEDED) != SINGLE_NEEDED) {
         text_fail(p->text, "expected features to du, one line each");
     }
+    finish_lens(p);
+    finish_more(p);
     if ((node8 ? p->nodes16 : p->pairs8).count != 0 ||
             p->nodes16.count % 2 != 0 ||
             (p->pairs8.count > 0 && p->children != 2)) {

@@ -8,6 +8,7 @@
 
 #include "cli.h"
 #include "scene/ql_blob.h"
+#include "smooth.h"
 
 #define NONE UINT32_MAX
 
@@ -27,31 +28,68 @@ static bool is_flat(const world_t *world, const world_face_t *face)
            same_point(world, v[2], v[0]);
 }
 
-/* Find the scale and the origin from the box of all faces. */
+/* Box of the world, exact. */
+typedef struct {
+    soft_t low[3], high[3];
+    bool any;
+} extent_t;
+
+static void extend(extent_t *extent, int k, soft_t low, soft_t high)
+{
+    if (!extent->any || soft_compare(low, extent->low[k]) < 0) {
+        extent->low[k] = low;
+    }
+    if (!extent->any || soft_compare(high, extent->high[k]) > 0) {
+        extent->high[k] = high;
+    }
+}
+
+static void extend_by_face(
+        extent_t *extent, const world_t *world, const world_face_t *face)
+{
+    for (int i = 0; i < 3; i++) {
+        const double *p = world->vertices[face->vertex[i]];
+
+        for (int k = 0; k < 3; k++) {
+            extend(extent, k, soft_from(p[k]), soft_from(p[k]));
+        }
+        extent->any = true;
+    }
+}
+
+static void extend_by_sphere(extent_t *extent, const world_sphere_t *sphere)
+{
+    const soft_t r = soft_from(sphere->radius);
+
+    for (int k = 0; k < 3; k++) {
+        const soft_t c = soft_from(sphere->centre[k]);
+
+        extend(extent, k, soft_sub(c, r), soft_add(c, r));
+    }
+    extent->any = true;
+}
+
+/* Find the scale and the origin from the box of everything. */
 static void fit_box(grid_t *grid, const world_t *world)
 {
-    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     soft_t span = soft_int(0, 0);
-    bool any = false;
+    extent_t extent;
 
+    memset(&extent, 0, sizeof extent);
     for (size_t f = 0; f < world->face_count; f++) {
-        const world_face_t *face = world->faces + f;
-
-        for (int i = 0; i < 3 && !is_flat(world, face); i++) {
-            const double *p = world->vertices[face->vertex[i]];
-
-            for (int k = 0; k < 3; k++) {
-                low[k] = !any || p[k] < low[k] ? p[k] : low[k];
-                high[k] = !any || p[k] > high[k] ? p[k] : high[k];
-            }
-            any = true;
+        if (!is_flat(world, world->faces + f)) {
+            extend_by_face(&extent, world, world->faces + f);
         }
     }
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        extend_by_sphere(&extent, world->spheres + i);
+    }
     for (int k = 0; k < 3; k++) {
-        const soft_t side = soft_sub(soft_from(high[k]), soft_from(low[k]));
+        const soft_t side = soft_sub(extent.high[k], extent.low[k]);
 
         /* with nothing to see, the camera may as well be at the origin */
-        grid->origin[k] = soft_from(any ? low[k] : world->camera.eye[k]);
+        grid->origin[k] =
+                extent.any ? extent.low[k] : soft_from(world->camera.eye[k]);
         span = soft_compare(side, span) > 0 ? side : span;
     }
     if (span.m == 0) {
@@ -127,24 +165,90 @@ void grid_normal(const grid_t *grid, const grid_face_t *face, int64_t n[3])
     n[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-static void add_face(grid_t *grid, const grid_face_t *face)
+void grid_box(const grid_t *grid, const grid_face_t *face, uint16_t low[3],
+        uint16_t high[3])
+{
+    if (face->sphere != 0) {
+        const ql_blob_sphere_t *s = grid->spheres + face->sphere - 1;
+
+        for (int k = 0; k < 3; k++) {
+            low[k] = (uint16_t)((s->centre[k] - s->radius) >> 8);
+            high[k] = (uint16_t)((s->centre[k] + s->radius + 255) >> 8);
+        }
+        return;
+    }
+    memcpy(low, grid->vertices[face->vertex[0]], 3 * sizeof *low);
+    memcpy(high, low, 3 * sizeof *high);
+    for (int i = 1; i < 3; i++) {
+        const uint16_t *p = grid->vertices[face->vertex[i]];
+
+        for (int k = 0; k < 3; k++) {
+            low[k] = p[k] < low[k] ? p[k] : low[k];
+            high[k] = p[k] > high[k] ? p[k] : high[k];
+        }
+    }
+}
+
+static void append_face(grid_t *grid, const grid_face_t *face)
+{
+    uint16_t low[3], high[3];
+
+    grid_box(grid, face, low, high);
+    for (int k = 0; k < 3; k++) {
+        grid->low[k] = low[k] < grid->low[k] ? low[k] : grid->low[k];
+        grid->high[k] = high[k] > grid->high[k] ? high[k] : grid->high[k];
+    }
+    grid->faces[grid->face_count++] = *face;
+}
+
+static bool has_area(const grid_t *grid, const grid_face_t *face)
 {
     int64_t n[3];
 
     grid_normal(grid, face, n);
-    if (n[0] == 0 && n[1] == 0 && n[2] == 0) {
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+}
+
+/* Does it leave the part of the grid that holds the scene? */
+static bool pokes_out(const ql_blob_sphere_t *sphere)
+{
+    bool out = false;
+
+    for (int k = 0; k < 3; k++) {
+        out = out || sphere->centre[k] < (GRID_LOW << 8) + sphere->radius ||
+              sphere->centre[k] + sphere->radius > GRID_HIGH << 8;
+    }
+    return out;
+}
+
+static void round_sphere(grid_t *grid, const world_t *world, uint32_t index)
+{
+    const world_sphere_t *from = world->spheres + index;
+    grid_face_t face = {{0, 0, 0}, 0, 0, 0};
+    ql_blob_sphere_t sphere;
+
+    sphere.radius = (uint32_t)soft_round(
+            soft_div(soft_from(from->radius), grid->unit), 8);
+    for (int k = 0; k < 3; k++) {
+        const soft_t x = soft_sub(soft_from(from->centre[k]), grid->origin[k]);
+
+        /* inside the box: below 2^23 */
+        sphere.centre[k] = (uint32_t)((GRID_LOW << 8) +
+                                      soft_round(soft_div(x, grid->unit), 8));
+    }
+    /* it did not before rounding, so a step or two suffice */
+    while (sphere.radius > 0 && pokes_out(&sphere)) {
+        sphere.radius--;
+    }
+    if (sphere.radius < 256) {
         grid->tiny_count++;
         return;
     }
-    grid->faces[grid->face_count++] = *face;
-    for (int i = 0; i < 3; i++) {
-        const uint16_t *p = grid->vertices[face->vertex[i]];
-
-        for (int k = 0; k < 3; k++) {
-            grid->low[k] = p[k] < grid->low[k] ? p[k] : grid->low[k];
-            grid->high[k] = p[k] > grid->high[k] ? p[k] : grid->high[k];
-        }
-    }
+    grid->spheres[grid->sphere_count++] = sphere;
+    face.material = from->material;
+    face.sphere = grid->sphere_count;
+    face.source = index;
+    append_face(grid, &face);
 }
 
 static void round_faces(grid_t *grid, const world_t *world)
@@ -163,6 +267,8 @@ static void round_faces(grid_t *grid, const world_t *world)
             continue;
         }
         face.material = from->material;
+        face.sphere = 0;
+        face.source = (uint32_t)f;
         for (int i = 0; i < 3; i++) {
             const uint32_t v = from->vertex[i];
 
@@ -171,7 +277,11 @@ static void round_faces(grid_t *grid, const world_t *world)
             }
             face.vertex[i] = rounded[v];
         }
-        add_face(grid, &face);
+        if (has_area(grid, &face)) {
+            append_face(grid, &face);
+        } else {
+            grid->tiny_count++;
+        }
     }
     free(finder.slots);
     free(rounded);
@@ -181,22 +291,31 @@ void quantise(grid_t *grid, const world_t *world)
 {
     memset(grid, 0, sizeof *grid);
     grid->vertices = cli_alloc(world->vertex_count, sizeof *grid->vertices);
-    grid->faces = cli_alloc(world->face_count, sizeof *grid->faces);
+    grid->faces = cli_alloc(
+            world->face_count + world->sphere_count, sizeof *grid->faces);
+    grid->spheres = cli_alloc(world->sphere_count, sizeof *grid->spheres);
     for (int k = 0; k < 3; k++) {
         grid->low[k] = UINT16_MAX;
     }
     fit_box(grid, world);
     round_faces(grid, world);
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        round_sphere(grid, world, (uint32_t)i); /* lines of a text: < 2^32 */
+    }
     if (grid->face_count > QL_TRI_MAX) {
-        cli_fail(CLI_INPUT, "%s: expected %lu triangles at most, found %lu",
+        cli_fail(CLI_INPUT,
+                "%s: expected %lu triangles and spheres at most, found %lu",
                 world->path, (unsigned long)QL_TRI_MAX,
                 (unsigned long)grid->face_count);
     }
+    smooth(grid, world);
 }
 
 void grid_free(grid_t *grid)
 {
     free(grid->vertices);
+    free(grid->normals);
     free(grid->faces);
+    free(grid->spheres);
     memset(grid, 0, sizeof *grid);
 }

@@ -123,6 +123,89 @@ static void get_pair8(reader_t *r, ql_blob_pair8_t *pair)
     pair->link[1] = get16(r);
 }
 
+/* ---- one entry of each table of features ---- */
+
+static void get_normals(reader_t *r, ql_blob_normal_t *normal)
+{
+    for (int k = 0; k < 3; k++) {
+        normal->xyz[k] = to_signed(get16(r));
+    }
+}
+
+static void get_gloss(reader_t *r, ql_blob_gloss_t *gloss)
+{
+    get_triple32(r, gloss->specular);
+    gloss->parameter = get32(r);
+    gloss->chance = get32(r);
+    gloss->kind = get16(r);
+    gloss->zero = get16(r);
+}
+
+static void get_spheres(reader_t *r, ql_blob_sphere_t *sphere)
+{
+    get_triple32(r, sphere->centre);
+    sphere->radius = get32(r);
+}
+
+static void get_sky(reader_t *r, ql_blob_sky_t *sky)
+{
+    get_triple32(r, sky->emission);
+    sky->rotate = get32(r);
+    sky->width = get16(r);
+    sky->height = get16(r);
+    sky->table = get16(r);
+    sky->zero = get16(r);
+}
+
+static void get_texels(reader_t *r, ql_blob_texel_t *texel)
+{
+    texel->rgb9e5 = get32(r);
+}
+
+static void get_tables(reader_t *r, ql_blob_distribution_t *table)
+{
+    table->first = get32(r);
+    get_triple16(r, table->count);
+    table->dims = get16(r);
+}
+
+static void get_words(reader_t *r, uint16_t *word)
+{
+    *word = get16(r);
+}
+
+static void get_lens(reader_t *r, ql_blob_lens_t *lens)
+{
+    get_wide(r, lens->p[0]);
+    get_wide(r, lens->p[1]);
+    get_triple32(r, lens->d[0]);
+    get_triple32(r, lens->d[1]);
+}
+
+/* ---- the whole ---- */
+
+static void get_more(model_t *model, const uint8_t *blob)
+{
+    const uint32_t features = model->header.features;
+    reader_t tables, r;
+
+    tables.at = blob + sizeof model->header;
+#define GET_MORE(name, type, bits)                                             \
+    if ((features & (uint32_t)(bits)) != 0) {                                  \
+        ql_blob_table_t table;                                                 \
+                                                                               \
+        get_table(&tables, &table);                                            \
+        r.at = blob + table.offset;                                            \
+        model->name##_count = table.count;                                     \
+        model->name = cli_alloc(table.count, sizeof(type));                    \
+        for (uint32_t i = 0; i < table.count; i++) {                           \
+            get_##name(&r, model->name + i);                                   \
+        }                                                                      \
+    }
+    QL_BLOB_MORE_LIST(GET_MORE)
+#undef GET_MORE
+}
+
 static void get_surface_tables(model_t *model, const uint8_t *blob)
 {
     const ql_blob_header_t *h = &model->header;
@@ -213,6 +296,7 @@ void read_blob(model_t *model, const char *path)
     get_surface_tables(model, blob);
     get_pairs(model, blob);
     get_light_tables(model, blob);
+    get_more(model, blob);
     /* a dump says nothing of where tables lie, so it must go without saying */
     again = write_blob(model, &written);
     if (written != size || memcmp(again, blob, size) != 0) {

@@ -3,12 +3,19 @@
 
 #include "read_mtl.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "alloc.h"
+#include "build_gloss.h"
 #include "cli.h"
 #include "text.h"
+
+#define NS_MOST  65535
+#define NI_LEAST 0.0625
+#define NI_MOST  64
+#define KS_MOST  1e6 /* Kd + Ks above 1 is scaled */
 
 bool names_add(names_t *set, const char *name)
 {
@@ -32,12 +39,10 @@ void names_free(names_t *set)
     memset(set, 0, sizeof *set);
 }
 
-/* What one material says beside its colours; it decides what is missed. */
+/* What one material says beside its colours; it decides what it becomes. */
 typedef struct {
-    bool specular;    /* a Ks above 0 */
-    bool shininess;   /* Ns */
-    bool transparent; /* d below 1, Tr above 0, Tf not white */
-    bool refraction;  /* Ni */
+    bool exponent; /* it has Ns */
+    unsigned ni_line;
     int64_t illum;
 } extras_t;
 
@@ -56,35 +61,85 @@ static void report(reader_t *reader, const char *name)
     }
 }
 
-/* Report what the material that ends here would have needed. Exporters write
- * Ns and Ni into every material; they matter only beside Ks or glass. */
+static bool is_black(const double colour[3])
+{
+    return colour[0] == 0 && colour[1] == 0 && colour[2] == 0;
+}
+
+/* Ks as the illumination model has it. */
+static void end_specular(reader_t *reader)
+{
+    world_material_t *material = reader->material;
+    const int64_t illum = reader->extras.illum;
+
+    if (illum == 0 || illum == 1) {
+        if (names_add(&reader->reported, "Ks of illum 0 and 1")) {
+            cli_warn("%s: Ks of '%s' is not used, for its illum is %d",
+                    reader->text.path, material->name, (int)illum);
+        }
+        return;
+    }
+    material->kind =
+            illum == 3 || illum == 5 ? QL_GLOSS_MIRROR : QL_GLOSS_PHONG;
+    if (material->kind == QL_GLOSS_PHONG && !reader->extras.exponent) {
+        cli_warn("%s: '%s' has a Ks and no Ns: it is 0", reader->text.path,
+                material->name);
+    }
+    if (gloss_excess(material)) {
+        cli_warn("%s: Kd + Ks of '%s' is above 1: both scaled by %.4g",
+                reader->text.path, material->name,
+                soft_double(gloss_scale(material)));
+    }
+}
+
+static void end_glass(reader_t *reader)
+{
+    world_material_t *material = reader->material;
+
+    if (material->ni < NI_LEAST || material->ni > NI_MOST) {
+        reader->text.line = reader->extras.ni_line;
+        text_fail(&reader->text,
+                "expected a Ni of glass from 1/16 to 64, "
+                "found %g",
+                material->ni);
+    }
+    material->kind = QL_GLOSS_GLASS;
+}
+
+/* All is known of the material: decide what it is, report what it is not. */
 static void end_material(reader_t *reader)
 {
-    static const char *const illum[] = {"illum 3", "illum 4", "illum 5",
-            "illum 6", "illum 7", "illum 8", "illum 9", "illum 10"};
-    const extras_t *extras = &reader->extras;
+    static const char *const illum[] = {"illum 4", "illum 5", "illum 6",
+            "illum 7", "illum 8", "illum 9", "illum 10"};
+    const world_material_t *material = reader->material;
+    const int64_t model = reader->extras.illum;
 
-    if (extras->specular) {
-        report(reader, "Ks");
-        if (extras->shininess) {
-            report(reader, "Ns");
+    if (material == NULL) {
+        return;
+    }
+    if (model == 4 || model == 6 || model >= 8) {
+        report(reader, illum[model - 4]);
+    }
+    if (model == 7) {
+        end_glass(reader);
+    } else {
+        if (!is_black(material->ks)) {
+            end_specular(reader);
+        }
+        if (material->filter[0] != 1 || material->filter[1] != 1 ||
+                material->filter[2] != 1) {
+            report(reader, "Tf");
         }
     }
-    if (extras->illum >= 3) {
-        report(reader, illum[extras->illum - 3]);
-    }
-    if (extras->refraction &&
-            (extras->transparent || extras->illum == 6 || extras->illum == 7)) {
-        report(reader, "Ni");
-    }
-    memset(&reader->extras, 0, sizeof reader->extras);
 }
 
 /* One or three numbers: one is grey, as the format has it. */
-static void read_colour(reader_t *reader, const char *what, double colour[3])
+static void read_colour(reader_t *reader, const char *key, double colour[3])
 {
     text_t *text = &reader->text;
+    char what[32];
 
+    (void)snprintf(what, sizeof what, "a colour for %s", key);
     if (strncmp(text->rest, "xyz", 3) == 0 ||
             strncmp(text->rest, "spectral", 8) == 0) {
         text_fail(text, "expected %s as RGB numbers, found '%s'", what,
@@ -97,19 +152,20 @@ static void read_colour(reader_t *reader, const char *what, double colour[3])
     }
 }
 
-static void read_kd(reader_t *reader)
+/* A colour of which each channel is clamped to 0..most. */
+static void read_clamped(
+        reader_t *reader, const char *key, double colour[3], double most)
 {
-    double *kd = reader->material->kd;
     bool outside = false;
 
-    read_colour(reader, "a colour for Kd", kd);
+    read_colour(reader, key, colour);
     for (int k = 0; k < 3; k++) {
-        outside = outside || kd[k] < 0 || kd[k] > 1;
-        kd[k] = kd[k] < 0 ? 0 : kd[k] > 1 ? 1 : kd[k];
+        outside = outside || colour[k] < 0 || colour[k] > most;
+        colour[k] = colour[k] < 0 ? 0 : colour[k] > most ? most : colour[k];
     }
     if (outside) {
-        cli_warn("%s:%u: Kd of '%s' clamped to 0..1", reader->text.path,
-                reader->text.line, reader->material->name);
+        cli_warn("%s:%u: %s of '%s' clamped to 0..%g", reader->text.path,
+                reader->text.line, key, reader->material->name, most);
     }
 }
 
@@ -117,7 +173,7 @@ static void read_ke(reader_t *reader)
 {
     double *ke = reader->material->ke;
 
-    read_colour(reader, "a colour for Ke", ke);
+    read_colour(reader, "Ke", ke);
     for (int k = 0; k < 3; k++) {
         if (ke[k] < 0 || ke[k] > 1e18) {
             text_fail(&reader->text, "expected a Ke from 0 to 1e18, found %g",
@@ -137,6 +193,9 @@ static void read_newmtl(reader_t *reader)
     end_material(reader);
     index = world_add_material(reader->world, name, strlen(name));
     reader->material = reader->world->materials + index;
+    reader->material->defined = true;
+    memset(&reader->extras, 0, sizeof reader->extras);
+    reader->extras.illum = -1; /* not said */
 }
 
 /* d F, d -halo F, Tr F: opacity and its opposite. */
@@ -148,32 +207,36 @@ static void read_opacity(reader_t *reader, const char *key)
         (void)text_word(&reader->text);
     }
     if (text_number(&reader->text, "a number") != opaque) {
-        reader->extras.transparent = true;
         report(reader, key);
     }
 }
 
-/* A key that is not modelled but belongs to the format; false if unknown. */
-static bool read_extra(reader_t *reader, const char *key)
+static void read_exponent(reader_t *reader)
 {
-    double colour[3];
+    world_material_t *material = reader->material;
+    const double ns = text_number(&reader->text, "the exponent Ns");
 
-    if (strcmp(key, "Ks") == 0) {
-        read_colour(reader, "a colour for Ks", colour);
-        reader->extras.specular =
-                colour[0] != 0 || colour[1] != 0 || colour[2] != 0;
-    } else if (strcmp(key, "Tf") == 0) {
-        read_colour(reader, "a colour for Tf", colour);
-        if (colour[0] != 1 || colour[1] != 1 || colour[2] != 1) {
-            report(reader, key);
-        }
-    } else if (strcmp(key, "Ns") == 0) {
-        reader->extras.shininess = true;
+    material->ns = ns < 0 ? 0 : ns > NS_MOST ? NS_MOST : ns;
+    if (material->ns != ns) {
+        cli_warn("%s:%u: Ns of '%s' clamped to 0..%d", reader->text.path,
+                reader->text.line, material->name, NS_MOST);
+    }
+    reader->extras.exponent = true;
+}
+
+/* A key beside the colours; false if it is not known. */
+static bool read_property(reader_t *reader, const char *key)
+{
+    text_t *text = &reader->text;
+
+    if (strcmp(key, "Ns") == 0) {
+        read_exponent(reader);
     } else if (strcmp(key, "Ni") == 0) {
-        reader->extras.refraction = true;
+        reader->material->ni = text_number(text, "the index of refraction Ni");
+        reader->extras.ni_line = text->line;
     } else if (strcmp(key, "illum") == 0) {
         reader->extras.illum =
-                text_integer(&reader->text, "the illumination model", 0, 10);
+                text_integer(text, "the illumination model", 0, 10);
     } else if (strcmp(key, "d") == 0 || strcmp(key, "Tr") == 0) {
         read_opacity(reader, key);
     } else {
@@ -189,10 +252,14 @@ static void read_key(reader_t *reader, const char *key)
     } else if (reader->material == NULL) {
         text_fail(&reader->text, "expected newmtl NAME, found '%s'", key);
     } else if (strcmp(key, "Kd") == 0) {
-        read_kd(reader);
+        read_clamped(reader, key, reader->material->kd, 1);
+    } else if (strcmp(key, "Ks") == 0) {
+        read_clamped(reader, key, reader->material->ks, KS_MOST);
+    } else if (strcmp(key, "Tf") == 0) {
+        read_clamped(reader, key, reader->material->filter, 1);
     } else if (strcmp(key, "Ke") == 0) {
         read_ke(reader);
-    } else if (!read_extra(reader, key) && strcmp(key, "Ka") != 0) {
+    } else if (!read_property(reader, key) && strcmp(key, "Ka") != 0) {
         report(reader, key);
     }
 }

@@ -17,9 +17,15 @@ bool names_add(names_t *set, const char *name);
 
 void names_free(names_t *set);
 
-/* Append the materials of an MTL file to a world: Kd and Ke of each. Anything
- * else that would change the picture is reported once by name on stderr, and so
- * is a Kd outside 0..1, which is clamped.
+/* Append the materials of an MTL file to a world. What they become:
+ *
+ *   illum 7              glass of Ni and Tf; Kd and Ks mean nothing
+ *   illum 3 or 5, Ks     a mirror of Ks beside Kd
+ *   illum 0 or 1         Kd only
+ *   other or none, Ks    the Phong lobe of Ks and Ns beside Kd
+ *
+ * Ke makes any of them a light. Anything else that would change the picture is
+ * reported once by name on stderr; so is what is out of range, once each.
  *
  *   world  -  in, out
  *   path   -  of the MTL file

@@ -4,6 +4,7 @@
 #include "read_obj.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,18 +14,26 @@
 #include "read_mtl.h"
 #include "text.h"
 
+#define NORMAL_MAX 1e300
+
+/* A corner of a face, as indices into the world; normal 1 + its own or 0. */
+typedef struct {
+    uint32_t vertex, normal;
+} corner_t;
+
 /* One mesh being read. Materials may be used before they are defined, so faces
  * first name an entry of used, and get the material's index at the end. */
 typedef struct {
     text_t text;
     world_t *world;
     size_t first_vertex; /* of this mesh in the world */
+    size_t first_normal;
     size_t first_face;
     size_t first_material;
     char **used; /* names as usemtl gives them */
     size_t used_count, used_capacity;
     size_t current;    /* entry of used; 0 is "none yet" */
-    uint32_t *polygon; /* corners of the face being read */
+    corner_t *polygon; /* corners of the face being read */
     size_t polygon_capacity;
     int64_t index_max; /* largest that was ahead of its vertex */
     unsigned index_max_line;
@@ -40,6 +49,30 @@ static void read_vertex(reader_t *reader)
         position[k] = text_number(&reader->text, "three coordinates");
     }
     world_add_vertex(reader->world, position);
+}
+
+/* Anything but three numbers, as the nan of a face without area, is no normal;
+ * that is 0. */
+static void read_normal(reader_t *reader)
+{
+    double normal[3] = {0, 0, 0};
+
+    for (int k = 0; k < 3; k++) {
+        const char *word = text_word(&reader->text);
+        char *end;
+
+        normal[k] = word != NULL ? strtod(word, &end) : NAN;
+        if (word == NULL || *end != '\0' || !(fabs(normal[k]) <= NORMAL_MAX)) {
+            if (names_add(&reader->reported, "vn of no numbers")) {
+                cli_warn("%s:%u: expected vn X Y Z: triangles that use it are "
+                         "flat",
+                        reader->text.path, reader->text.line);
+            }
+            memset(normal, 0, sizeof normal);
+            break;
+        }
+    }
+    world_add_normal(reader->world, normal);
 }
 
 /* Read one index of a corner from *at; return false if there is none. */
@@ -59,32 +92,13 @@ static bool read_index(char **at, long *index)
     return *index != 0;
 }
 
-/* v, v/vt, v//vn or v/vt/vn; the world's index of v. */
-static uint32_t read_corner(reader_t *reader, char *word)
+/* The world's index of a corner's vertex. */
+static uint32_t vertex_of(reader_t *reader, long v)
 {
     const int64_t count =
             (int64_t)(reader->world->vertex_count - reader->first_vertex);
-    char *at = word;
-    long v, other;
-    int64_t index;
-    bool good = read_index(&at, &v);
+    const int64_t index = v > 0 ? (int64_t)v - 1 : count + v;
 
-    if (good && *at == '/') {
-        at++;
-        /* vt may be missing, but a lone "v/" may also end the corner */
-        good = *at == '/' || *at == '\0' || read_index(&at, &other);
-        if (good && *at == '/') {
-            at++;
-            good = *at == '\0' || read_index(&at, &other);
-        }
-    }
-    if (!good || *at != '\0') {
-        text_fail(&reader->text,
-                "expected a corner like 1, 1/2, 1//3 or 1/2/3 "
-                "with no index 0, found '%s'",
-                word);
-    }
-    index = v > 0 ? (int64_t)v - 1 : count + v;
     if (index < 0) {
         text_fail(&reader->text, "expected a vertex from %lld to -1, found %ld",
                 (long long)-count, v);
@@ -99,6 +113,55 @@ static uint32_t read_corner(reader_t *reader, char *word)
     return (uint32_t)(reader->first_vertex + (size_t)index);
 }
 
+/* 1 + the world's index of a corner's normal, 0 for none. It may come later, or
+ * never: resolve_normals() sees to that. */
+static uint32_t normal_of(const reader_t *reader, long n)
+{
+    const int64_t count =
+            (int64_t)(reader->world->normal_count - reader->first_normal);
+    const int64_t index = n > 0 ? (int64_t)n - 1 : count + n;
+
+    if (n == 0 || index < 0 ||
+            (uint64_t)index >= UINT32_MAX - 1 - reader->first_normal) {
+        return n == 0 ? 0 : UINT32_MAX;
+    }
+    return (uint32_t)(reader->first_normal + (size_t)index) + 1;
+}
+
+/* v, v/vt, v//vn or v/vt/vn */
+static corner_t read_corner(reader_t *reader, char *word)
+{
+    char *at = word;
+    long v, n = 0, other;
+    corner_t corner;
+    bool good = read_index(&at, &v);
+
+    if (good && *at == '/') {
+        at++;
+        /* vt may be missing, but a lone "v/" may also end the corner */
+        good = *at == '/' || *at == '\0' || read_index(&at, &other);
+        if (good && *at == '/') {
+            at++;
+            good = *at == '\0' || read_index(&at, &n);
+        }
+    }
+    if (!good || *at != '\0') {
+        text_fail(&reader->text,
+                "expected a corner like 1, 1/2, 1//3 or 1/2/3 "
+                "with no index 0, found '%s'",
+                word);
+    }
+    corner.vertex = vertex_of(reader, v);
+    corner.normal = normal_of(reader, n);
+    return corner;
+}
+
+static void set_corner(world_face_t *face, int i, corner_t corner)
+{
+    face->vertex[i] = corner.vertex;
+    face->normal[i] = corner.normal;
+}
+
 static void read_face(reader_t *reader)
 {
     size_t count = 0;
@@ -106,21 +169,21 @@ static void read_face(reader_t *reader)
     char *word;
 
     while ((word = text_word(&reader->text)) != NULL) {
-        const uint32_t vertex = read_corner(reader, word);
+        const corner_t corner = read_corner(reader, word);
 
         reader->polygon = alloc_grow(reader->polygon, count,
                 &reader->polygon_capacity, sizeof *reader->polygon);
-        reader->polygon[count++] = vertex;
+        reader->polygon[count++] = corner;
     }
     if (count < 3) {
         text_fail(&reader->text, "expected three or more corners, found %zu",
                 count);
     }
     face.material = (uint32_t)reader->current;
-    face.vertex[0] = reader->polygon[0];
+    set_corner(&face, 0, reader->polygon[0]);
     for (size_t i = 2; i < count; i++) {
-        face.vertex[1] = reader->polygon[i - 1];
-        face.vertex[2] = reader->polygon[i];
+        set_corner(&face, 1, reader->polygon[i - 1]);
+        set_corner(&face, 2, reader->polygon[i]);
         world_add_face(reader->world, &face);
     }
 }
@@ -198,7 +261,7 @@ static void read_mtllib(reader_t *reader)
 
 static bool is_ignored(const char *key)
 {
-    static const char *const ignored[] = {"vt", "vn", "o", "g", "s"};
+    static const char *const ignored[] = {"vt", "o", "g", "s"};
 
     for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++) {
         if (strcmp(key, ignored[i]) == 0) {
@@ -212,6 +275,8 @@ static void read_key(reader_t *reader, const char *key)
 {
     if (strcmp(key, "v") == 0) {
         read_vertex(reader);
+    } else if (strcmp(key, "vn") == 0) {
+        read_normal(reader);
     } else if (strcmp(key, "f") == 0) {
         read_face(reader);
     } else if (strcmp(key, "usemtl") == 0) {
@@ -262,6 +327,29 @@ static void resolve_materials(reader_t *reader)
     free(material);
 }
 
+/* Forget normals that the file does not have. */
+static void resolve_normals(reader_t *reader)
+{
+    world_t *world = reader->world;
+    bool missing = false;
+
+    for (size_t f = reader->first_face; f < world->face_count; f++) {
+        for (int i = 0; i < 3; i++) {
+            uint32_t *normal = world->faces[f].normal + i;
+
+            if (*normal > world->normal_count) {
+                *normal = 0;
+                missing = true;
+            }
+        }
+    }
+    if (missing) {
+        cli_warn("%s: corners name normals that are not there: those triangles "
+                 "are flat",
+                reader->text.path);
+    }
+}
+
 static void close_reader(reader_t *reader)
 {
     for (size_t i = 0; i < reader->used_count; i++) {
@@ -280,6 +368,7 @@ void read_obj(world_t *world, const char *path)
 
     reader.world = world;
     reader.first_vertex = world->vertex_count;
+    reader.first_normal = world->normal_count;
     reader.first_face = world->face_count;
     reader.first_material = world->material_count;
     reader.index_max = -1;
@@ -297,5 +386,6 @@ void read_obj(world_t *world, const char *path)
                 (long long)reader.index_max + 1);
     }
     resolve_materials(&reader);
+    resolve_normals(&reader);
     close_reader(&reader);
 }

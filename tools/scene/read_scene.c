@@ -8,14 +8,30 @@
 #include <string.h>
 
 #include "cli.h"
+#include "alloc.h"
 #include "read_obj.h"
+#include "read_sky.h"
+#include "read_table.h"
 #include "scene/ql_blob.h"
 #include "soft.h"
 
 #define EXPOSURE_MAX 64
 
 /* Keys of the language, in the order of the bits of seen. */
-enum { MESH, CAMERA, IMAGE, EXPOSURE, LIGHTS, LENS, SKY, SPHERE, KEY_COUNT };
+enum {
+    MESH,
+    CAMERA,
+    IMAGE,
+    EXPOSURE,
+    LIGHTS,
+    LENS,
+    SKY,
+    SPHERE,
+    TABLE,
+    KEY_COUNT
+};
+
+#define ROTATE_MAX 1e6 /* degrees */
 
 static const char *const key_names[KEY_COUNT] = {
         "mesh",
@@ -26,6 +42,7 @@ static const char *const key_names[KEY_COUNT] = {
         "lens",
         "sky",
         "sphere",
+        "table",
 };
 
 static void read_vector(text_t *text, const char *what, double vector[3])
@@ -146,24 +163,141 @@ static void read_lights(text_t *text, world_t *world)
     world->two_sided = word[0] == 't';
 }
 
+/* The path of a file that the scene names; fails if it cannot be read. */
+static char *path_of(const text_t *text, const char *what, const char *name)
+{
+    char *path = text_beside(text->path, name);
+    FILE *file = fopen(path, "rb");
+
+    if (file == NULL) {
+        cli_fail(CLI_IO, "%s:%u: cannot read the %s '%s'", text->path,
+                text->line, what, path);
+    }
+    fclose(file);
+    return path;
+}
+
 static void read_mesh(text_t *text, world_t *world)
 {
     const char *name = text_rest(text);
     char *path;
-    FILE *file;
 
     if (name == NULL) {
         text_fail(text, "expected mesh FILE.obj");
     }
-    path = text_beside(text->path, name);
-    file = fopen(path, "rb");
-    if (file == NULL) {
-        cli_fail(CLI_IO, "%s:%u: cannot read the mesh '%s'", text->path,
-                text->line, path);
-    }
-    fclose(file);
+    path = path_of(text, "mesh", name);
     read_obj(world, path);
     free(path);
+}
+
+static void read_table_file(text_t *text, world_t *world)
+{
+    const char *name = text_rest(text);
+    char *path;
+
+    if (name == NULL) {
+        text_fail(text, "expected table FILE");
+    }
+    path = path_of(text, "table", name);
+    read_table(world, path);
+    free(path);
+}
+
+static void read_lens(text_t *text, world_t *world)
+{
+    static const char *const names[] = {"radius", "focus"};
+    double *const values[] = {&world->lens.radius, &world->lens.focus};
+    unsigned seen = 0;
+    const char *word;
+
+    while ((word = text_word(text)) != NULL) {
+        const unsigned i = strcmp(word, names[0]) == 0 ? 0 : 1;
+
+        if (strcmp(word, names[i]) != 0 || (seen & 1u << i) != 0) {
+            text_fail(text, "expected each of radius, focus once, found '%s'",
+                    word);
+        }
+        seen |= 1u << i;
+        *values[i] = text_number(text, "a length");
+    }
+    if (seen != 3) {
+        text_fail(text, "expected lens radius R focus DISTANCE");
+    }
+    if (!(world->lens.radius >= 0 && world->lens.focus > 0)) {
+        text_fail(text, "expected a radius of 0 or more and a focus above 0");
+    }
+    world->lens_line = text->line;
+}
+
+/* X Y Z radius R material NAME; the name may hold blanks. */
+static void read_sphere(text_t *text, world_t *world)
+{
+    static const char form[] = "sphere X Y Z radius R material NAME";
+    world_sphere_t *sphere = world_add_sphere(world);
+    const char *word;
+
+    read_vector(text, "three coordinates", sphere->centre);
+    word = text_word(text);
+    if (word == NULL || strcmp(word, "radius") != 0) {
+        text_fail(text, "expected %s", form);
+    }
+    sphere->radius = text_number(text, "the radius");
+    if (!(sphere->radius > 0)) {
+        text_fail(text, "expected a radius above 0");
+    }
+    word = text_word(text);
+    if (word == NULL || strcmp(word, "material") != 0 ||
+            (word = text_rest(text)) == NULL) {
+        text_fail(text, "expected %s", form);
+    }
+    sphere->name = alloc_text(word, strlen(word));
+    sphere->line = text->line;
+}
+
+static void read_colour(text_t *text, world_sky_t *sky)
+{
+    read_vector(text, "a radiance, red, green and blue,", sky->colour);
+    for (int k = 0; k < 3; k++) {
+        if (!(sky->colour[k] >= 0 && sky->colour[k] <= SKY_RADIANCE_MAX)) {
+            text_fail(text, "expected a radiance from 0 to %g, found %g",
+                    SKY_RADIANCE_MAX, sky->colour[k]);
+        }
+    }
+}
+
+static void read_map(text_t *text, world_sky_t *sky)
+{
+    char *path = path_of(text, "sky", text_word(text));
+    const char *word = text_word(text);
+
+    if (word != NULL) {
+        if (strcmp(word, "rotate") != 0) {
+            text_fail(text,
+                    "expected sky FILE.pfm [rotate DEGREES], found "
+                    "'%s'",
+                    word);
+        }
+        sky->rotate = text_number(text, "degrees");
+        if (!(sky->rotate >= -ROTATE_MAX && sky->rotate <= ROTATE_MAX)) {
+            text_fail(text, "expected %g degrees at most", ROTATE_MAX);
+        }
+    }
+    read_sky(sky, path);
+    free(path);
+}
+
+static void read_sky_line(text_t *text, world_t *world)
+{
+    const size_t word = strcspn(text->rest, " \t\v\f");
+
+    if (word == 0) {
+        text_fail(text, "expected sky RED GREEN BLUE or sky FILE.pfm");
+    }
+    if (strspn(text->rest, "0123456789+-.eE") == word) {
+        read_colour(text, &world->sky);
+    } else {
+        read_map(text, &world->sky);
+    }
 }
 
 static void read_key(text_t *text, world_t *world, int key)
@@ -186,11 +320,43 @@ static void read_key(text_t *text, world_t *world, int key)
     case LIGHTS:
         read_lights(text, world);
         break;
+    case LENS:
+        read_lens(text, world);
+        break;
+    case SKY:
+        read_sky_line(text, world);
+        break;
+    case SPHERE:
+        read_sphere(text, world);
+        break;
     default:
-        text_fail(
-                text, "'%s' is not supported by this version", key_names[key]);
+        read_table_file(text, world);
     }
     text_finish(text);
+}
+
+/* Materials may be defined after the spheres made of them. The last definition
+ * of a name counts. */
+static void resolve_spheres(world_t *world, text_t *text)
+{
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        world_sphere_t *sphere = world->spheres + i;
+        size_t m = world->material_count;
+
+        while (m > 0 && !(world->materials[m - 1].defined &&
+                                strcmp(world->materials[m - 1].name,
+                                        sphere->name) == 0)) {
+            m--;
+        }
+        if (m == 0) {
+            text->line = sphere->line;
+            text_fail(text,
+                    "expected a material that a mesh's mtllib defines, found "
+                    "'%s'",
+                    sphere->name);
+        }
+        sphere->material = (uint32_t)(m - 1);
+    }
 }
 
 void read_scene(world_t *world, text_t *text)
@@ -209,11 +375,12 @@ void read_scene(world_t *world, text_t *text)
         }
         if (key == KEY_COUNT) {
             text_fail(text,
-                    "expected mesh, camera, image, exposure or lights, "
-                    "found '%s'",
+                    "expected mesh, camera, lens, image, sky, sphere, lights, "
+                    "exposure or table, found '%s'",
                     word);
         }
-        if (key != MESH && (seen & 1u << key) != 0) {
+        if (key != MESH && key != SPHERE && key != TABLE &&
+                (seen & 1u << key) != 0) {
             text_fail(
                     text, "expected one '%s' in a scene, found a second", word);
         }
@@ -226,4 +393,5 @@ void read_scene(world_t *world, text_t *text)
     if ((seen & 1u << MESH) == 0) {
         text_fail(text, "expected a 'mesh' line before the end of the file");
     }
+    resolve_spheres(world, text);
 }

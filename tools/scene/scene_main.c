@@ -184,9 +184,12 @@ static void write_output(const model_t *model, const options_t *options)
     }
     cli_out_commit(&out);
     if (!options->quiet) {
-        printf("%s: %" PRIu32 " triangles, %" PRIu32 " lights, %zu bytes\n",
-                options->output, model->triangle_count, model->light_count,
-                size);
+        printf("%s: %" PRIu32 " triangles, ", options->output,
+                model->triangle_count - model->spheres_count);
+        if (model->spheres_count > 0) {
+            printf("%" PRIu32 " spheres, ", model->spheres_count);
+        }
+        printf("%" PRIu32 " lights, %zu bytes\n", model->light_count, size);
     }
     free(blob);
 }

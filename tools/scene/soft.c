@@ -267,12 +267,37 @@ static soft_t series(soft_t x, int first)
     return sum;
 }
 
-soft_t soft_tan_half(soft_t degrees)
+soft_t soft_pi(void)
 {
     static const soft_t pi = {false, -62, 0xc90fdaa22168c235u};
-    const soft_t x = soft_div(soft_mul(degrees, pi), soft_int(360, 0));
+
+    return pi;
+}
+
+soft_t soft_tan_half(soft_t degrees)
+{
+    const soft_t x = soft_div(soft_mul(degrees, soft_pi()), soft_int(360, 0));
 
     return soft_div(series(x, 1), series(x, 0));
+}
+
+soft_t soft_sin_pi(soft_t x)
+{
+    if (soft_compare(x, soft_int(1, -1)) > 0) {
+        x = soft_sub(soft_int(1, 0), x);
+    }
+    return series(soft_mul(x, soft_pi()), 1);
+}
+
+u128_t soft_floor(soft_t a)
+{
+    u128_t m = {0, 0};
+
+    m.low = a.m;
+    if (a.e >= 0) {
+        return shift_left(m, (unsigned)a.e);
+    }
+    return a.e > -64 ? u128_shift_right(m, (unsigned)-a.e) : (u128_t){0, 0};
 }
 
 int64_t soft_round(soft_t a, int bits)

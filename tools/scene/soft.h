@@ -64,6 +64,15 @@ int soft_compare(soft_t a, soft_t b);
 /* tan of half an angle of 0 < degrees < 180; error below 2^-60 / cos. */
 soft_t soft_tan_half(soft_t degrees);
 
+/* The nearest number to pi. */
+soft_t soft_pi(void);
+
+/* sin(pi x) of 0 < x < 1; error below 2^-60. */
+soft_t soft_sin_pi(soft_t x);
+
+/* floor(a) of 0 <= a < 2^128. */
+u128_t soft_floor(soft_t a);
+
 /* The integer nearest to a * 2^bits, halves away from 0; saturates. */
 int64_t soft_round(soft_t a, int bits);
 

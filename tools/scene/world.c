@@ -21,6 +21,17 @@ size_t world_add_vertex(world_t *world, const double position[3])
     return world->vertex_count++;
 }
 
+size_t world_add_normal(world_t *world, const double normal[3])
+{
+    if (world->normal_count >= UINT32_MAX - 1) {
+        cli_fail(CLI_INPUT, "more than 2^32 normals");
+    }
+    world->normals = alloc_grow(world->normals, world->normal_count,
+            &world->normal_capacity, sizeof *world->normals);
+    memcpy(world->normals[world->normal_count], normal, sizeof *world->normals);
+    return world->normal_count++;
+}
+
 size_t world_add_material(world_t *world, const char *name, size_t name_length)
 {
     world_material_t *material;
@@ -28,10 +39,12 @@ size_t world_add_material(world_t *world, const char *name, size_t name_length)
     world->materials = alloc_grow(world->materials, world->material_count,
             &world->material_capacity, sizeof *world->materials);
     material = world->materials + world->material_count;
+    memset(material, 0, sizeof *material);
     material->name = alloc_text(name, name_length);
+    material->ni = 1;
     for (int k = 0; k < 3; k++) {
         material->kd[k] = 0.5; /* grey, until a Kd says otherwise */
-        material->ke[k] = 0;
+        material->filter[k] = 1;
     }
     return world->material_count++;
 }
@@ -43,12 +56,38 @@ void world_add_face(world_t *world, const world_face_t *face)
     world->faces[world->face_count++] = *face;
 }
 
+world_sphere_t *world_add_sphere(world_t *world)
+{
+    world->spheres = alloc_grow(world->spheres, world->sphere_count,
+            &world->sphere_capacity, sizeof *world->spheres);
+    memset(world->spheres + world->sphere_count, 0, sizeof *world->spheres);
+    return world->spheres + world->sphere_count++;
+}
+
+world_table_t *world_add_table(world_t *world)
+{
+    world->tables = alloc_grow(world->tables, world->table_count,
+            &world->table_capacity, sizeof *world->tables);
+    memset(world->tables + world->table_count, 0, sizeof *world->tables);
+    return world->tables + world->table_count++;
+}
+
 void world_free(world_t *world)
 {
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        free(world->spheres[i].name);
+    }
+    for (size_t i = 0; i < world->table_count; i++) {
+        free(world->tables[i].weights);
+    }
     for (size_t i = 0; i < world->material_count; i++) {
         free(world->materials[i].name);
     }
+    free(world->sky.map);
+    free(world->spheres);
+    free(world->tables);
     free(world->vertices);
+    free(world->normals);
     free(world->faces);
     free(world->materials);
     memset(world, 0, sizeof *world);
