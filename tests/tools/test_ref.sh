@@ -1,0 +1,106 @@
+#!/bin/sh
+# test_ref.sh - qlux-ref: exit codes, nothing left, the core's pictures
+# SPDX-License-Identifier: MIT
+#
+# Usage: tests/tools/test_ref.sh [BUILD]
+# Example: tests/tools/test_ref.sh build
+
+build=$(cd "${1:-build}" && pwd) || exit 3
+root=$(cd "$(dirname "$0")/../.." && pwd)
+work=$(mktemp -d) || exit 3
+trap 'rm -rf "$work"' EXIT
+ref=$build/qlux-ref
+failures=0
+
+for scene in cornell glossy sky; do
+    "$build/qlux-scene" "$root/tests/scenes/$scene.scene" \
+        -o "$work/$scene.qlb" >"$work/out.txt" 2>&1 || exit 3
+done
+cd "$work" || exit 3
+
+say() { # claim, what it evaluates to, note
+    if [ "$2" -eq 0 ]; then
+        printf '%-20s %-52s ok   %s\n' tools/test_ref "$1" "${3:-}"
+    else
+        printf '%-20s %-52s FAIL %s\n' tools/test_ref "$1" "${3:-}"
+        failures=$((failures + 1))
+    fi
+}
+
+# expect CLAIM CODE TEXT COMMAND...: the exit code, and TEXT in what it prints
+expect() {
+    claim=$1 code=$2 text=$3
+    shift 3
+    "$@" >out.txt 2>&1
+    got=$?
+    grep -q -- "$text" out.txt && [ "$got" -eq "$code" ]
+    say "$claim" $?
+}
+
+small="--size 20x14 --spp 8 --seed 3 --quiet"
+
+# Usage
+expect help_has_an_example 0 'Example:' "$ref" --help
+expect version_is_named 0 'qlux-ref ' "$ref" --version
+expect no_arguments_are_refused 1 'name a scene' "$ref"
+expect no_output_is_refused 1 'give -o' "$ref" cornell.qlb
+expect sums_are_refused 1 'not exact' \
+    "$ref" cornell.qlb -o a.pfm --save-sums a.qls
+expect an_unknown_option_is_refused 1 "'--bogus'" \
+    "$ref" cornell.qlb -o a.pfm --bogus
+expect an_unknown_extension_is_refused 1 '.ppm, .pfm or .png' \
+    "$ref" cornell.qlb -o a.jpg
+expect rows_below_the_picture_are_refused 1 'from 0 to 8' \
+    "$ref" cornell.qlb -o a.pfm --size 8x8 --rows 4:9
+
+# Input
+expect a_missing_scene_is_code_3 3 'none.qlb' "$ref" none.qlb -o a.pfm
+head -c 300 cornell.qlb >cut.qlb
+expect a_cut_scene_is_code_2 2 'cut.qlb: byte 8: ' "$ref" cut.qlb -o a.pfm
+echo 'this is not a blob, whatever its name is' >text.qlb
+expect a_text_is_code_2 2 'text.qlb: byte 0: ' "$ref" text.qlb -o a.pfm
+expect a_missing_folder_is_code_3 3 'no/a.pfm' "$ref" cornell.qlb -o no/a.pfm
+ln -s /dev/full full.pfm
+expect a_full_disk_is_code_3 3 'No space' "$ref" cornell.qlb -o full.pfm $small
+rm full.pfm cut.qlb text.qlb
+[ "$(ls ./*.pfm ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
+say nothing_is_left_behind $?
+
+# Output
+"$ref" cornell.qlb -o one.pfm $small --threads 1 &&
+    "$ref" cornell.qlb -o four.pfm $small --threads 4 && cmp one.pfm four.pfm
+say threads_change_no_bit $?
+"$ref" cornell.qlb -o a.ppm $small && "$ref" cornell.qlb -o a.png $small
+expect ppm_and_png_agree 0 'identical: yes' "$build/qlux-diff" a.ppm a.png
+"$build/qlux-sim" cornell.qlb -o s.ppm $small
+"$build/qlux-diff" a.ppm s.ppm >out.txt
+awk '$1 == "max:" { exit $2 > 1 }' out.txt
+say a_display_shows_what_the_core_shows $? "$(grep max out.txt) of 255"
+"$ref" cornell.qlb -o part.pfm $small --rows 0:7 --samples 2:8 --stats >out.txt
+grep -q '^paths: 840$' out.txt
+say rows_and_samples_are_counted $?
+
+# The same random numbers: what differs is arithmetic, by the limits that the
+# formats were chosen for. One bounce only: through glass and back from walls a
+# lamp is met by few paths, and one of them that passes it on the other side is
+# seen in its pixel.
+picture="--size 64x64 --spp 256 --bounces 1 --quiet"
+for scene in cornell glossy sky; do
+    "$ref" $scene.qlb -o $scene.pfm $picture
+    for precision in fine draft; do
+        case $precision in
+        fine) sim=qlux-sim relmse=1e-6 bias=1e-4 ;;
+        draft) sim=qlux-sim-draft relmse=1e-4 bias=1e-3 ;;
+        esac
+        "$build/$sim" $scene.qlb -o core.pfm $picture &&
+            "$build/qlux-diff" core.pfm $scene.pfm --max-relmse $relmse \
+                --max-bias $bias >out.txt
+        say "${scene}_is_that_of_double_in_$precision" $? "$(grep -E \
+            '^(relmse|bias)' out.txt | tr '\n' ' ')limits $relmse $bias"
+    done
+done
+"$build/qlux-sim-draft" cornell.qlb -o core.pfm $picture --seed 1
+expect other_random_numbers_are_rejected 1 relmse \
+    "$build/qlux-diff" core.pfm cornell.pfm --max-relmse 1e-4
+
+exit $((failures != 0))

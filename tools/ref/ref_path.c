@@ -1,0 +1,360 @@
+/* ref_path.c - camera, path loop and direct light, with the core's decisions */
+/* SPDX-License-Identifier: MIT */
+
+/* Which rays are drawn, what each may see and which random numbers it takes is
+ * as in render/ql_path.c and render/ql_direct.c. */
+
+#include "ref_parts.h"
+#include "scene/ql_light.h"
+
+typedef enum { SEES_NOTHING, SEES_ALL, SEES_A_SHARE } sight_t;
+
+/* A ray, what it carries and what it may see. */
+typedef struct {
+    ref_ray_t ray;
+    double carried[3];
+    sight_t sight;
+    double pdf;          /* of its direction, for its share */
+    ref_surface_t begun; /* where it began, likewise */
+    bool delta;
+} way_t;
+
+/* One sample of one pixel. */
+typedef struct {
+    const ref_scene_t *scene;
+    const ql_settings_t *settings;
+    ql_sampler_t sampler;
+    double *rgb;
+    ref_stats_t *stats;
+} path_t;
+
+typedef struct {
+    uint32_t dim;
+    ref_surface_t surface;
+    ref_bsdf_t bsdf;
+    double carried[3]; /* before it */
+} vertex_t;
+
+typedef struct {
+    unsigned bounce;
+    bool last; /* the ray only looks for emitters */
+    bool seen; /* so far there were mirrors and glass only */
+} state_t;
+
+static double largest(const double rgb[3])
+{
+    return fmax(rgb[0], fmax(rgb[1], rgb[2]));
+}
+
+static void add(path_t *path, const double carried[3], const double value[3],
+        double scale)
+{
+    for (unsigned k = 0; k < 3; k++) {
+        path->rgb[k] += carried[k] * value[k] * scale;
+    }
+}
+
+/* ---- Direct light ------------------------------------------------------- */
+
+/* The share of a ray that met a light, or the sky: hit is NULL then. */
+static double share_of(const path_t *path, const way_t *way, int32_t light,
+        const ref_hit_t *hit)
+{
+    double ratio;
+
+    if (way->sight != SEES_A_SHARE || light < 0) {
+        return 1;
+    }
+    ratio = way->pdf *
+            ref_aim_inverse(path->scene, &way->begun, way->ray.direction, hit) /
+            ref_light_chance(path->scene, path->settings, (uint32_t)light);
+    return ratio > 0 ? ratio / (1 + ratio) : 1;
+}
+
+static void see_sky(path_t *path, const way_t *way)
+{
+    double emission[3];
+
+    if (path->scene->blob->sky == NULL || way->sight == SEES_NOTHING) {
+        return;
+    }
+    ref_sky(path->scene, way->ray.direction, emission);
+    add(path, way->carried, emission,
+            share_of(path, way, path->scene->blob->light_count - 1, NULL));
+}
+
+static void see_shape(path_t *path, const way_t *way, const ref_hit_t *hit)
+{
+    const ref_shape_t *shape = path->scene->shapes + hit->shape;
+
+    if (way->sight != SEES_NOTHING && largest(shape->material->emission) > 0 &&
+            (hit->front || path->scene->blob->two_sided)) {
+        add(path, way->carried, shape->material->emission,
+                share_of(path, way, shape->light, hit));
+    }
+}
+
+/* Follow a ray to what it meets and add what it sees; false if it leaves. */
+static bool follow(path_t *path, const way_t *way, ref_hit_t *hit)
+{
+    path->stats->closest_rays++;
+    if (!ref_closest(path->scene, &way->ray, hit)) {
+        see_sky(path, way);
+        return false;
+    }
+    see_shape(path, way, hit);
+    return true;
+}
+
+/* One sample of one light. */
+static void ask(path_t *path, uint32_t dim, const vertex_t *v, uint32_t light)
+{
+    const ql_settings_t *s = path->settings;
+    const ql_uniform2_t u =
+            ql_sampler_2d(&path->sampler, dim + QL_DIM_LIGHT_POINT);
+    double reflected[3];
+    ref_aim_t aim;
+    ref_ray_t ray;
+
+    if (!ref_aim(path->scene, s->direct, light, &v->surface, u, &aim)) {
+        return;
+    }
+    ray = ref_leave(&v->surface, aim.w, false);
+    if (aim.shape == REF_NOWHERE) {
+        path->stats->closest_rays++;
+    } else {
+        path->stats->shadow_rays++;
+    }
+    if (ref_blocked(path->scene, &ray, aim.distance, aim.shape)) {
+        return;
+    }
+    ref_bsdf_reflect(&v->bsdf, aim.w,
+            aim.inverse / ref_light_chance(path->scene, s, light),
+            s->direct == QL_DIRECT_MIS, reflected);
+    for (unsigned k = 0; k < 3; k++) {
+        reflected[k] *= aim.emission[k];
+    }
+    add(path, v->carried, reflected, 1);
+}
+
+static bool aims(const path_t *path)
+{
+    const unsigned direct = path->settings->direct;
+
+    return path->scene->blob->light_count > 0 &&
+           (direct == QL_DIRECT_AREA || direct == QL_DIRECT_SOLID_ANGLE ||
+                   direct == QL_DIRECT_MIS);
+}
+
+static void direct_light(path_t *path, const vertex_t *v)
+{
+    const ql_settings_t *s = path->settings;
+    const ql_scene_t *blob = path->scene->blob;
+    const unsigned asked = s->lights == QL_LIGHTS_ALL ? blob->light_count : 1;
+    uint32_t dim = v->dim;
+
+    for (unsigned light = 0; light < asked; light++) {
+        for (unsigned i = 0; i < s->light_samples; i++) {
+            const uint32_t pick =
+                    ql_sampler_1d(&path->sampler, dim + QL_DIM_LIGHT_PICK);
+
+            ask(path, dim, v,
+                    s->lights == QL_LIGHTS_ALL
+                            ? light
+                            : ql_light_choose(blob, s->lights, pick));
+            dim += QL_DIMS_A_SAMPLE;
+        }
+    }
+}
+
+/* ---- The next ray ------------------------------------------------------- */
+
+/* Draw a way from a vertex; look is 1 for the numbers of a second way. */
+static bool draw(const path_t *path, const vertex_t *v, ql_indirect_t density,
+        bool delta, unsigned look, way_t *way)
+{
+    const ql_uniform2_t u = ql_sampler_2d(
+            &path->sampler, v->dim + (look ? QL_DIM_LOOK : QL_DIM_DIRECTION));
+    const uint32_t pick = ql_sampler_1d(&path->sampler,
+            v->dim + (look ? QL_DIM_LOOK_CHOICE : QL_DIM_CHOICE));
+    ref_bsdf_sample_t sample;
+
+    if (!ref_bsdf_sample(&v->bsdf, density, delta, pick, u, &sample)) {
+        return false;
+    }
+    way->ray = ref_leave(&v->surface, sample.direction, sample.through);
+    for (unsigned k = 0; k < 3; k++) {
+        way->carried[k] = v->carried[k] * sample.weight[k];
+    }
+    way->delta = sample.delta;
+    way->sight = SEES_ALL;
+    if (density == QL_INDIRECT_BRDF && !sample.delta &&
+            path->settings->direct == QL_DIRECT_MIS) {
+        way->sight = SEES_A_SHARE;
+        way->pdf = sample.pdf;
+        way->begun = v->surface;
+    }
+    return largest(way->carried) > 0;
+}
+
+/* Density by which a strategy looks for emitters. */
+static ql_indirect_t looks_by(const ql_settings_t *s)
+{
+    return s->direct == QL_DIRECT_HEMISPHERE ? QL_INDIRECT_UNIFORM
+           : s->direct == QL_DIRECT_COSINE   ? QL_INDIRECT_COSINE
+           : s->direct == QL_DIRECT_MIS      ? QL_INDIRECT_BRDF
+                                             : QL_INDIRECT_NONE;
+}
+
+static bool same_density(
+        const ref_bsdf_t *bsdf, ql_indirect_t a, ql_indirect_t b)
+{
+    if (!ref_bsdf_has_spread(bsdf)) {
+        return true;
+    }
+    if (bsdf->material->kind == 0) {
+        a = a == QL_INDIRECT_BRDF ? QL_INDIRECT_COSINE : a;
+        b = b == QL_INDIRECT_BRDF ? QL_INDIRECT_COSINE : b;
+    }
+    return a == b;
+}
+
+/* Russian roulette, with the chance of the largest channel. */
+static bool survives(const path_t *path, const vertex_t *v, way_t *way)
+{
+    const ql_uniform2_t u =
+            ql_sampler_2d(&path->sampler, v->dim + QL_DIM_CHOICE);
+    const double chance = largest(way->carried);
+
+    if (!path->settings->roulette || chance >= 1) {
+        return true;
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        way->carried[k] /= chance;
+    }
+    return ref_midpoint(u.u2) < chance;
+}
+
+/* Draw the next ray of the path; false if there is none. */
+static bool go_on(path_t *path, const vertex_t *v, state_t *state, way_t *way)
+{
+    const ql_settings_t *s = path->settings;
+    const ql_indirect_t look = looks_by(s);
+    const bool mirror = ref_bsdf_has_delta(&v->bsdf) &&
+                        (s->direct != QL_DIRECT_NONE || state->seen);
+    ql_indirect_t density = state->bounce < s->bounces
+                                    ? (ql_indirect_t)s->indirect
+                                    : QL_INDIRECT_NONE;
+    bool apart;
+
+    if (density == QL_INDIRECT_NONE) {
+        const bool spread =
+                look != QL_INDIRECT_NONE && ref_bsdf_has_spread(&v->bsdf);
+
+        state->last = true;
+        return (spread || mirror) && draw(path, v, look, !spread, 0, way);
+    }
+    apart = look != QL_INDIRECT_NONE && !same_density(&v->bsdf, look, density);
+    if (apart) {
+        ref_hit_t hit;
+        way_t around;
+
+        if (draw(path, v, look, false, 1, &around)) {
+            (void)follow(path, &around, &hit);
+        }
+    } else if (look != QL_INDIRECT_NONE) {
+        density = look;
+    }
+    if (!draw(path, v, density, false, 0, way)) {
+        return false;
+    }
+    if (apart || (way->delta ? !mirror : look == QL_INDIRECT_NONE)) {
+        way->sight = SEES_NOTHING;
+    }
+    state->seen = state->seen && way->delta;
+    return survives(path, v, way);
+}
+
+/* ---- The path ----------------------------------------------------------- */
+
+/* Make a vertex of a hit; false if it reflects nothing. */
+static bool arrive(const path_t *path, const way_t *way, const ref_hit_t *hit,
+        unsigned bounce, vertex_t *v)
+{
+    const ref_material_t *material = path->scene->shapes[hit->shape].material;
+
+    if (material->kind == 0 && largest(material->albedo) <= 0) {
+        return false;
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        v->carried[k] = way->carried[k];
+    }
+    v->dim = QL_DIM_BOUNCE(bounce);
+    ref_surface_at(path->scene, &way->ray, hit, &v->surface);
+    ref_bsdf_begin(
+            &v->bsdf, &v->surface, material, hit->front, way->ray.direction);
+    return true;
+}
+
+static void trace(path_t *path, way_t *way)
+{
+    state_t state = {0, false, true};
+    vertex_t v;
+    ref_hit_t hit;
+
+    path->stats->paths++;
+    for (;; state.bounce++) {
+        if (!follow(path, way, &hit) || state.last ||
+                !arrive(path, way, &hit, state.bounce, &v)) {
+            return;
+        }
+        if (aims(path) && ref_bsdf_has_spread(&v.bsdf)) {
+            direct_light(path, &v);
+        }
+        if (!go_on(path, &v, &state, way)) {
+            return;
+        }
+    }
+}
+
+/* The ray through a point of the picture's plane, and of the lens. */
+static ref_ray_t camera_ray(
+        const ref_scene_t *scene, double x, double y, ref_vec_t lens)
+{
+    ref_ray_t ray;
+
+    ray.origin = ref_along(ref_along(scene->p, scene->pr, x), scene->pu, y);
+    ray.direction = ref_along(ref_along(scene->d, scene->dr, x), scene->du, y);
+    ray.origin = ref_along(ray.origin, scene->lens_p[0], lens.x);
+    ray.origin = ref_along(ray.origin, scene->lens_p[1], lens.y);
+    ray.direction = ref_along(ray.direction, scene->lens_d[0], lens.x);
+    ray.direction = ref_along(ray.direction, scene->lens_d[1], lens.y);
+    ray.direction = ref_unit(ray.direction);
+    ray.from = REF_NOWHERE;
+    ray.inside = false;
+    return ray;
+}
+
+void ref_pixel(const ref_scene_t *scene, const ql_settings_t *settings,
+        uint16_t x, uint16_t y, uint32_t first, uint32_t count, double rgb[3],
+        ref_stats_t *stats)
+{
+    path_t path = {scene, settings, {0, 0, false}, rgb, stats};
+
+    ql_sampler_begin(&path.sampler, settings->sampler, settings->seed, x, y);
+    for (uint32_t i = 0; i < count; i++) {
+        way_t way = {.carried = {1, 1, 1}, .sight = SEES_ALL};
+        ql_uniform2_t u, on_lens;
+
+        ql_sampler_start(&path.sampler, first + i);
+        u = ql_sampler_2d(&path.sampler, QL_DIM_PIXEL);
+        on_lens = ql_sampler_2d(&path.sampler, QL_DIM_LENS);
+        way.ray = camera_ray(scene,
+                (2 * (x + ref_midpoint(u.u1)) - settings->width) /
+                        settings->height,
+                1 - 2 * (y + ref_midpoint(u.u2)) / settings->height,
+                ref_warp_disk(
+                        ref_midpoint(on_lens.u1), ref_midpoint(on_lens.u2)));
+        trace(&path, &way);
+    }
+}
