@@ -37,16 +37,22 @@ static float mean_float(uint64_t sum, uint32_t count, int exponent)
             (double)(quotient >> 1), exponent - (int)shift + (int)drop + 1);
 }
 
+/* Samples of a pixel in a row of so many. */
+static uint32_t count_of(const sums_t *sums, size_t pixel, uint32_t row)
+{
+    return sums->counts != NULL ? sums->counts[pixel] : row;
+}
+
 static void develop_linear(image_t *image, const sums_t *sums)
 {
     const size_t width = image->width;
     const int exponent = (int)sums_field_value(sums, SUMS_RADIANCE_EXP);
 
     for (uint32_t y = 0; y < image->height; y++) {
-        const uint32_t count = sums_row_count(sums, y);
+        const uint32_t row = sums_row_count(sums, y);
         for (size_t i = 3 * width * y; i < 3 * width * (y + 1); i++) {
-            image->floats[i] = mean_float(sums->pixels[i / 3].rgb[i % 3], count,
-                    exponent - QL_SUM_BITS);
+            image->floats[i] = mean_float(sums->pixels[i / 3].rgb[i % 3],
+                    count_of(sums, i / 3, row), exponent - QL_SUM_BITS);
         }
     }
 }
@@ -97,14 +103,15 @@ static void develop_display(
     uint8_t *line = cli_alloc(QL_LINE_BYTES(width, format), 1);
 
     for (uint32_t y = 0; y < image->height; y++) {
-        const uint32_t count = sums_row_count(sums, y);
-        if (count == 0) {
+        const uint32_t row = sums_row_count(sums, y);
+        if (row == 0) {
             continue; /* not even dithered */
         }
         for (size_t x = 0; x < width; x++) {
+            const size_t i = width * y + x;
             ql_uq16_t linear[3];
             ql_film_display(
-                    sums->pixels + width * y + x, count, exposure, linear);
+                    sums->pixels + i, count_of(sums, i, row), exposure, linear);
             ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
         }
         for (size_t x = 0; x < width; x++) {

@@ -52,14 +52,22 @@ void sums_new(sums_t *sums)
 {
     sums->range_count = 0;
     sums->ranges = NULL;
+    sums->counts = NULL;
     sums->pixels = cli_alloc(sums->field[SUMS_HEIGHT],
             sums->field[SUMS_WIDTH] * sizeof(ql_sum_t));
+}
+
+void sums_own_counts(sums_t *sums)
+{
+    sums->counts = cli_alloc(sums->field[SUMS_HEIGHT],
+            sums->field[SUMS_WIDTH] * sizeof *sums->counts);
 }
 
 void sums_free(sums_t *sums)
 {
     free(sums->ranges);
     free(sums->pixels);
+    free(sums->counts);
     memset(sums, 0, sizeof *sums);
 }
 
@@ -296,8 +304,8 @@ const char *sums_decode(
 
     memset(sums, 0, sizeof *sums);
     *where = 0;
-    if (size < 4 || memcmp(data, "QLS1", 4) != 0) {
-        return "expected a sum file (QLS1)";
+    if (size < 4 || memcmp(data, "QLS2", 4) != 0) {
+        return "expected a sum file (QLS2)";
     }
     *where = size;
     if (size < HEAD_BYTES + CRC_BYTES) {
@@ -376,7 +384,7 @@ void sums_write(sums_t *sums, cli_out_t *out)
     checked_t to = {out->file, 0};
 
     join_ranges(sums);
-    put_bytes(&to, (const uint8_t *)"QLS1", 4);
+    put_bytes(&to, (const uint8_t *)"QLS2", 4);
     for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
         put_le32(&to, sums->field[i]);
     }

@@ -4,10 +4,10 @@
 /* A .qls file holds part of a picture: some rows, some sample indices. Parts of
  * one picture add up to the very bits of the whole. Numbers are little-endian:
  *
- *     0   4         magic "QLS1"
- *     4   4 * 12    the settings of SUMS_FIELD_LIST, in its order
- *    52   4         n, the number of ranges
- *    56   16 * n    ranges: row_first, row_end, sample_first, sample_end
+ *     0   4         magic "QLS2"
+ *     4   4 * 15    the settings of SUMS_FIELD_LIST, in its order
+ *    64   4         n, the number of ranges
+ *    68   16 * n    ranges: row_first, row_end, sample_first, sample_end
  *     .   24 * w    for each row that a range holds, from the top: for each
  *                   pixel u64 sums of R, G and B, u40.24 radiance units
  *     .   4         CRC-32 of everything before
@@ -38,7 +38,10 @@
     X(SUMS_BOUNCES, "bounces", 0, 255)                                         \
     X(SUMS_SAMPLER, "sampler", 0, 255)                                         \
     X(SUMS_DIRECT, "direct strategy", 0, 255)                                  \
-    X(SUMS_INDIRECT, "indirect strategy", 0, 255)
+    X(SUMS_INDIRECT, "indirect strategy", 0, 255)                              \
+    X(SUMS_LIGHTS, "choice of lights", 0, 255)                                 \
+    X(SUMS_LIGHT_SAMPLES, "samples a light", 1, 255)                           \
+    X(SUMS_ROULETTE, "roulette", 0, 1)
 
 enum {
 #define SUMS_FIELD_ENUM(name, text, min, max) name,
@@ -60,6 +63,8 @@ typedef struct {
     uint32_t range_count;
     sums_range_t *ranges;
     ql_sum_t *pixels; /* width * height, rows from the top */
+    uint32_t *counts; /* samples of each pixel if they differ, which no file
+                         holds; NULL: as the ranges say */
 } sums_t;
 
 /* Take memory for black pixels; the size fields are set already. */
@@ -73,6 +78,9 @@ bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash);
 /* Samples in each pixel of a row. */
 uint32_t sums_row_count(const sums_t *sums, uint32_t y);
 
+/* Give each pixel a count of its own, 0 to begin. */
+void sums_own_counts(sums_t *sums);
+
 /* Decode a file's bytes, as image_decode() does. */
 const char *sums_decode(
         sums_t *sums, const uint8_t *data, size_t size, size_t *where);
@@ -80,7 +88,7 @@ const char *sums_decode(
 /* Read a file; cli_fail(CLI_IO) or cli_fail(CLI_INPUT) with the byte offset. */
 void sums_read(sums_t *sums, const char *path);
 
-/* Write into an open file, ranges sorted and joined. */
+/* Write into an open file, ranges sorted and joined; counts is NULL. */
 void sums_write(sums_t *sums, cli_out_t *out);
 
 /* The first field in which two parts differ, SUMS_FIELD_COUNT if none. */
