@@ -20,10 +20,22 @@
 #define MINI_TRIANGLES_MAX 2000
 #define MINI_VERTICES_MAX  2000
 #define MINI_MATERIALS_MAX 16
+#define MINI_SPHERES_MAX   1000
+#define MINI_TEXELS_MAX    4096
+#define MINI_TABLES_MAX    8
+#define MINI_WORDS_MAX     8192
 
+/* A triangle, or a sphere if sphere is not 0: vertex[0] is its index. */
 typedef struct {
     uint16_t vertex[3], material;
+    bool sphere;
 } mini_triangle_t;
+
+typedef struct {
+    double albedo[3], emission[3];
+    double specular[3], parameter, chance;
+    uint16_t gloss; /* ql_gloss_kind_t; 0: diffuse */
+} mini_material_t;
 
 typedef struct {
     /* What a test may set between mini_begin() and mini_open(). */
@@ -43,10 +55,22 @@ typedef struct {
     unsigned vertex_count;
     mini_triangle_t triangles[MINI_TRIANGLES_MAX];
     unsigned triangle_count;
-    struct {
-        double albedo[3], emission[3];
-    } materials[MINI_MATERIALS_MAX];
+    mini_material_t materials[MINI_MATERIALS_MAX];
     unsigned material_count;
+    double normals[MINI_VERTICES_MAX][3]; /* all 0: flat */
+    bool smooth;                          /* there are any */
+    ql_blob_sphere_t spheres[MINI_SPHERES_MAX];
+    unsigned sphere_count;
+    bool has_sky;
+    double sky[3]; /* radiance; of a map its mean */
+    ql_blob_sky_t sky_entry;
+    double texels[MINI_TEXELS_MAX][3];
+    ql_blob_distribution_t tables[MINI_TABLES_MAX];
+    unsigned table_count;
+    uint16_t words[MINI_WORDS_MAX];
+    unsigned word_count;
+    bool has_lens;
+    ql_blob_lens_t lens;
 
     /* The blob, once open. */
     uint32_t blob[64 * MINI_TRIANGLES_MAX];
@@ -58,6 +82,42 @@ void mini_begin(mini_scene_t *m);
 
 /* Add a gray material: albedo 0..1, radiance below 2^radiance_exp. */
 uint16_t mini_material(mini_scene_t *m, double albedo, double emission);
+
+/* Add a material with a colour. */
+uint16_t mini_rgb(
+        mini_scene_t *m, const double albedo[3], const double emission[3]);
+
+/* Make a material more than diffuse: kind as ql_blob_gloss_t has it, specular
+ * its Ks or Tf, parameter its Ns or Ni. The chance of the specular lobe is what
+ * it reflects of all that is reflected, unless the material's own is set. */
+void mini_gloss(mini_scene_t *m, uint16_t material, ql_gloss_kind_t kind,
+        double specular, double parameter);
+void mini_gloss_rgb(mini_scene_t *m, uint16_t material, ql_gloss_kind_t kind,
+        const double specular[3], double parameter);
+
+/* Add a sphere; all in 1/256 grid units. Returns its index among spheres. */
+uint16_t mini_sphere(mini_scene_t *m, const int32_t centre[3], int32_t radius,
+        uint16_t material);
+
+/* Give a corner a normal, of any length from 2^-15 to 1 in each component. */
+void mini_normal(mini_scene_t *m, uint16_t vertex, const double normal[3]);
+
+/* Light from all around, in the units of emission. */
+void mini_sky(mini_scene_t *m, double r, double g, double b);
+
+/* A picture of it, width by height, row 0 around +y; turned by so many turns.
+ * Its table follows the radiance as it is stored. */
+void mini_sky_map(mini_scene_t *m, unsigned width, unsigned height,
+        const double (*rgb)[3], double rotate);
+
+/* Add a tabulated distribution of as many weights as count[0] count[1] ..., the
+ * first index fastest; returns its index. */
+uint16_t mini_table(mini_scene_t *m, unsigned dims, const uint16_t *count,
+        const double *weights);
+
+/* A lens: a point (a, b) of the unit disk adds a p[0] + b p[1] grid units to
+ * the origin and a d[0] + b d[1] to the direction. */
+void mini_lens(mini_scene_t *m, const double p[2][3], const double d[2][3]);
 
 /* Add a corner; any number of triangles may share it. */
 uint16_t mini_vertex(mini_scene_t *m, int32_t x, int32_t y, int32_t z);
@@ -88,7 +148,7 @@ void mini_field(mini_scene_t *m, const double right[3], const double up[3]);
 /* Spread the origins likewise, in grid units: a parallel projection. */
 void mini_window(mini_scene_t *m, const double right[3], const double up[3]);
 
-/* Move everything, the camera too, by whole grid units. */
+/* Move everything in the box, the camera too, by whole grid units. */
 void mini_move(mini_scene_t *m, int32_t x, int32_t y, int32_t z);
 
 /* Write the blob and open it as the core would. */

@@ -24,7 +24,8 @@ QL_NOINLINE uint8_t fall(volatile uint8_t *above)
 int main(void)
 {
     static uint8_t frame[QL_STREAM_FRAME_BYTES(QL_STREAM_HEAD_BYTES)];
-    const ql_settings_t settings = {1, 1, 1, 0, 0, 0, 0, 0};
+    const ql_settings_t settings = {
+            .width = 1, .height = 1, .spp = 1, .light_samples = 1};
     volatile uint8_t zero = 0;
 
     if (ql_hal_init() != QL_OK ||

@@ -53,6 +53,16 @@ same() {
     return 1
 }
 
+# scene NAME BOARD [VARIABLE=value...]: the same with another scene.
+scene() {
+    SCENE=$1
+    shift
+    same "$@"
+    result=$?
+    SCENE=$default_scene
+    return $result
+}
+
 # panel BOARD [VARIABLE=value...]: the real board's firmware, and what it shows.
 panel() {
     grey=build/$SCENE-$1-gray4.ppm
@@ -104,6 +114,7 @@ stack() {
 }
 
 SCENE=${SCENE:-cornell}
+default_scene=$SCENE
 export SCENE
 claim template port_that_does_nothing_compiles "$make" test-template
 for board; do
@@ -111,6 +122,20 @@ for board; do
     claim "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
     claim "$board" interlaced_picture_is_the_same \
         same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SAMPLER=random SEED=9
+    claim "$board" spheres_phong_mirror_and_glass_are_the_same \
+        scene glossy "$board" SIZE=20x20 SPP=1
+    claim "$board" sky_map_by_mis_is_the_same \
+        scene sky "$board" SIZE=20x20 SPP=1 DIRECT=mis ROULETTE=1
+    claim "$board" lens_is_the_same scene lens "$board" SIZE=20x20 SPP=1
+    claim "$board" smooth_normals_are_the_same \
+        scene smooth "$board" SIZE=20x20 SPP=1 PRECISION=fine
+    for direct in hemisphere cosine solid-angle mis; do
+        claim "$board" "strategy_${direct}_is_the_same" scene strategies \
+            "$board" SIZE=16x16 SPP=1 DIRECT=$direct LIGHTS=uniform \
+            INDIRECT=uniform LIGHT_SAMPLES=2
+    done
+    claim "$board" pixels_that_end_by_themselves_are_the_same \
+        same "$board" SIZE=16x16 SPP=64 ERROR=0.1
     claim "$board" stack_stays_within_its_proved_bound stack "$board"
     claim "$board" ctrl_c_stops_the_picture ctrl_c "$board"
     claim "$board" panic_is_reported stops "$board" 100 0

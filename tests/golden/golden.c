@@ -1,7 +1,10 @@
 /* golden.c - checksums of pictures and parts: nothing changed by accident */
 /* SPDX-License-Identifier: MIT */
 
-/* Usage: golden print|check|update BLOB16 BLOB8 CHECKSUMS
+/* Usage: golden print|check|update CHECKSUMS BLOB16 BLOB8 [SCENE.qlb ...]
+ *
+ * BLOB16 and BLOB8 are one scene with both node widths; every further scene is
+ * rendered under its own name.
  *
  * Every line of CHECKSUMS is "name crc32"; names begin with the precision, so
  * one file serves both. check fails for a difference and for a missing line,
@@ -22,8 +25,11 @@
 #include "qlux.h"
 #include "render/ql_path.h"
 #include "sample/ql_hash.h"
+#include "sample/ql_lobe.h"
 #include "sample/ql_sampler.h"
 #include "sample/ql_sobol.h"
+#include "sample/ql_spherical.h"
+#include "sample/ql_square.h"
 #include "sample/ql_warp.h"
 
 #if QL_CFG_PRECISION == 0
@@ -32,7 +38,7 @@
 #define PRECISION "fine"
 #endif
 
-enum { SIZE = 32, ENTRIES_MAX = 256, NAME_MAX_BYTES = 64 };
+enum { SIZE = 32, ENTRIES_MAX = 1024, NAME_MAX_BYTES = 64, SCENES_MAX = 8 };
 
 typedef struct {
     char name[NAME_MAX_BYTES];
@@ -162,6 +168,66 @@ static void add_warps(void)
     add("dir_round", rounded);
 }
 
+static void add_lobes(void)
+{
+    uint32_t uniform = 0, naive = 0, cosine = 0, power = 0, cone = 0, disk = 0;
+
+    for (uint32_t i = 0; i < 4096; i++) {
+        const uint32_t u1 = spread(i), u2 = spread(~i);
+        const ql_uq16_t m = spread(i * 3) >> i % 16;
+        const ql_real_t s_max = {0x80000000u | u2, -32 - (int16_t)(i % 40)};
+        ql_uq31_t s;
+        ql_q29_t x, y;
+        ql_real_t pdf;
+
+        uniform = crc_vec(uniform, ql_warp_uniform_hemisphere(u1, u2));
+        naive = crc_vec(naive, ql_warp_naive_hemisphere(u1, u2));
+        cosine = crc_vec(cosine, ql_warp_cosine_lobe(u1, u2));
+        power = crc_vec(
+                power, ql_warp_power_lobe(ql_lobe_inverse(m), u1, u2, &s));
+        pdf = ql_warp_power_lobe_pdf(m, s);
+        power = crc_u32(crc_u32(crc_u32(power, s), pdf.m), (uint16_t)pdf.e);
+        cone = crc_vec(cone, ql_warp_cone(s_max, u1, u2));
+        ql_warp_disk(u1, u2, &x, &y);
+        disk = crc_u32(crc_u32(disk, (uint32_t)x), (uint32_t)y);
+    }
+    add("warp_uniform_hemisphere", uniform);
+    add("warp_naive_hemisphere", naive);
+    add("warp_cosine_lobe", cosine);
+    add("warp_power_lobe", power);
+    add("warp_cone", cone);
+    add("warp_disk", disk);
+}
+
+/* Corners all around, near and far. */
+static ql_vec3_t corner(uint32_t i)
+{
+    const ql_vec3_t v = {ql_asr32(ql_i32(spread(i)), 8 + i % 12),
+            ql_asr32(ql_i32(spread(i + 1)), 8 + i % 12),
+            ql_asr32(ql_i32(spread(i + 2)), 8 + i % 12)};
+
+    return v;
+}
+
+static void add_spherical(void)
+{
+    uint32_t crc = 0, angle = 0;
+
+    for (uint32_t i = 0; i < 4096; i++) {
+        ql_spherical_t t;
+
+        angle = crc_u32(angle, ql_atan2(ql_i32(spread(i)), ql_i32(spread(~i))));
+        if (ql_spherical_begin(
+                    &t, corner(9 * i), corner(9 * i + 3), corner(9 * i + 6))) {
+            crc = crc_u32(crc, t.solid_angle.m);
+            crc = crc_vec(
+                    crc, ql_warp_spherical_triangle(&t, spread(i), spread(~i)));
+        }
+    }
+    add("atan2", angle);
+    add("warp_spherical_triangle", crc);
+}
+
 static void add_tonemap(void)
 {
     uint32_t crc[QL_FORMAT_COUNT] = {0, 0, 0, 0, 0};
@@ -276,6 +342,42 @@ static void add_pictures(const ql_scene_t scenes[2])
     }
 }
 
+/* Every estimator, all else as above. */
+static void add_strategies(const ql_scene_t *scene, const char *name)
+{
+    static const struct {
+        const char *name;
+        uint8_t direct, indirect, lights, samples, roulette;
+    } all[] = {
+            {"none", QL_DIRECT_NONE, QL_INDIRECT_NONE, 0, 1, 0},
+            {"hemisphere", QL_DIRECT_HEMISPHERE, QL_INDIRECT_UNIFORM, 0, 1, 0},
+            {"cosine", QL_DIRECT_COSINE, QL_INDIRECT_COSINE, 0, 1, 1},
+            {"area_all", QL_DIRECT_AREA, QL_INDIRECT_BRDF, QL_LIGHTS_ALL, 2, 0},
+            {"angle", QL_DIRECT_SOLID_ANGLE, QL_INDIRECT_COSINE,
+                    QL_LIGHTS_UNIFORM, 3, 1},
+            {"mis", QL_DIRECT_MIS, QL_INDIRECT_BRDF, 0, 1, 0},
+            {"mis_apart", QL_DIRECT_MIS, QL_INDIRECT_UNIFORM, QL_LIGHTS_UNIFORM,
+                    2, 1},
+    };
+
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        ql_settings_t settings = QL_SETTINGS_DEFAULT;
+        char full[NAME_MAX_BYTES];
+
+        settings.width = 17;
+        settings.height = 11;
+        settings.spp = 4;
+        settings.bounces = 6;
+        settings.direct = all[i].direct;
+        settings.indirect = all[i].indirect;
+        settings.lights = all[i].lights;
+        settings.light_samples = all[i].samples;
+        settings.roulette = all[i].roulette;
+        (void)snprintf(full, sizeof full, "%s_%s", name, all[i].name);
+        add_sums(scene, full, settings);
+    }
+}
+
 /* ---- The file ---------------------------------------------------------- */
 
 static entry_t kept[ENTRIES_MAX];
@@ -375,7 +477,7 @@ static int update(const char *path)
 static void open_blob(ql_scene_t *scene, const char *path)
 {
     enum { BLOB_MAX = 65536 };
-    static uint32_t blobs[2][BLOB_MAX / 4];
+    static uint32_t blobs[SCENES_MAX][BLOB_MAX / 4];
     static unsigned count;
     FILE *file = fopen(path, "rb");
     size_t size;
@@ -392,31 +494,54 @@ static void open_blob(ql_scene_t *scene, const char *path)
     }
 }
 
+/* The name of a scene: that of its file, without folder and ending. */
+static const char *name_of(const char *path)
+{
+    static char name[24];
+    const char *slash = strrchr(path, '/');
+    char *dot;
+
+    (void)snprintf(name, sizeof name, "%s", slash != NULL ? slash + 1 : path);
+    dot = strchr(name, '.');
+    if (dot != NULL) {
+        *dot = '\0';
+    }
+    return name;
+}
+
 int main(int argc, char **argv)
 {
-    ql_scene_t scenes[2];
+    ql_scene_t scenes[SCENES_MAX];
 
-    if (argc != 5) {
-        (void)fputs("usage: golden print|check|update BLOB16 BLOB8 CHECKSUMS\n"
-                    "Example: golden check build/golden/cornell16.qlb "
-                    "build/golden/cornell8.qlb tests/golden/checksums.txt\n",
+    if (argc < 5 || argc > 3 + SCENES_MAX) {
+        (void)fputs("usage: golden print|check|update CHECKSUMS BLOB16 BLOB8 "
+                    "[SCENE.qlb ...]\n"
+                    "Example: golden check tests/golden/checksums.txt "
+                    "build/golden/cornell16.qlb build/golden/cornell8.qlb\n",
                 stderr);
         return 1;
     }
-    open_blob(scenes, argv[2]);
-    open_blob(scenes + 1, argv[3]);
+    for (int i = 3; i < argc; i++) {
+        open_blob(scenes + i - 3, argv[i]);
+    }
     add_tables();
     add_numbers();
     add_samplers();
     add_warps();
+    add_lobes();
+    add_spherical();
     add_tonemap();
     add_pictures(scenes);
-    read_checksums(argv[4]);
+    add_strategies(scenes, "cornell");
+    for (int i = 5; i < argc; i++) {
+        add_strategies(scenes + i - 3, name_of(argv[i]));
+    }
+    read_checksums(argv[2]);
     if (strcmp(argv[1], "check") == 0) {
         return check();
     }
     if (strcmp(argv[1], "update") == 0) {
-        return update(argv[4]);
+        return update(argv[2]);
     }
     for (unsigned i = 0; i < made_count; i++) {
         (void)printf("%s %08lx\n", made[i].name, (unsigned long)made[i].crc);

@@ -26,6 +26,13 @@ for bits in 16 8; do
     build/qlux-scene tests/scenes/cornell.scene -o "$out/cornell$bits.qlb" \
         --node-bits "$bits" --quiet || exit 1
 done
+# one scene for each feature, and what they are called
+blobs="$out/cornell16.qlb $out/cornell8.qlb"
+for scene in glossy sky lens smooth strategies; do
+    build/qlux-scene "tests/scenes/$scene.scene" -o "$out/$scene.qlb" \
+        --quiet 2> "$out/$scene.log" || exit 1
+    blobs="$blobs $out/$scene.qlb"
+done
 
 # build NAME COMPILER FLAGS: build/golden/NAME
 build()
@@ -39,7 +46,7 @@ build()
 run()
 {
     # shellcheck disable=SC2086
-    $2 "$out/$1" "$3" "$out/cornell16.qlb" "$out/cornell8.qlb" "$sums"
+    $2 "$out/$1" "$3" "$sums" $blobs
 }
 
 # config NAME RUNNER COMPILER FLAGS: both precisions
@@ -98,8 +105,9 @@ rejects()
     ran=$((ran + 1))
     result=ok
     awk "$2" "$sums" > "$out/changed.txt"
-    if "$out/gcc-O2-fine" check "$out/cornell16.qlb" "$out/cornell8.qlb" \
-        "$out/changed.txt" > "$out/rejects.log" 2>&1; then
+    # shellcheck disable=SC2086  # a list of scenes
+    if "$out/gcc-O2-fine" check "$out/changed.txt" $blobs \
+        > "$out/rejects.log" 2>&1; then
         result="FAIL it passes"
         failed=$((failed + 1))
     fi
@@ -107,8 +115,8 @@ rejects()
 }
 
 if [ -z "$only" ]; then
-    rejects a_changed_checksum 'NR == 60 { $2 = "00000000" } 1'
-    rejects a_missing_checksum 'NR != 60'
+    rejects a_changed_checksum '$1 == "fine/hash32" { $2 = "00000000" } 1'
+    rejects a_missing_checksum '$1 != "fine/hash32"'
     rejects a_checksum_of_nothing '{ print } END { print "fine/no 0" }'
 fi
 

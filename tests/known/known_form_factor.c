@@ -436,7 +436,10 @@ static double own_z(const case_t *c, fault_t fault, uint32_t samples)
 
         ql_sampler_start(&sampler, i);
         u = ql_sampler_2d(&sampler, 0);
-        ql_light_sample(&scene, ql_sampler_1d(&sampler, 1), u.u1, u.u2, &p);
+        ql_light_point(&scene,
+                ql_light_choose(
+                        &scene, QL_LIGHTS_POWER, ql_sampler_1d(&sampler, 1)),
+                u.u1, u.u2, &p);
         stats_add(&moments,
                 own_sample(c, &p, origin_of(c), n, scene.light_count, fault));
     }

@@ -266,13 +266,16 @@ TEST(emission_seen_by_the_camera_is_exact_and_counted_once)
 static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
         ql_ray_t ray, unsigned bounces, ql_sum_t *sum)
 {
-    static const ql_uq31_t one[3] = {QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE};
+    static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
+    const ql_settings_t settings = QL_SETTINGS_DEFAULT;
     ql_diag_t diag = {0, 0, 0, 0};
+    const ql_path_t path = {scene, &settings, sampler, sum, &diag};
 
     for (unsigned bounce = 0; bounce <= bounces; bounce++) {
         const uint32_t dim = QL_DIM_BOUNCE(bounce);
         const ql_uniform2_t u = ql_sampler_2d(sampler, dim + QL_DIM_DIRECTION);
         ql_surface_t surface;
+        ql_bsdf_t bsdf;
         ql_hit_t hit;
         ql_vec3_t n;
 
@@ -280,7 +283,10 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
             return;
         }
         ql_surface_at(scene, &ray, &hit, &surface);
-        ql_direct_area(scene, sampler, dim, &surface, one, sum, &diag);
+        ql_bsdf_begin(&bsdf, scene, &surface,
+                ql_scene_material(scene, scene->triangles + hit.tri_idx),
+                hit.front, ray.direction);
+        ql_direct_light(&path, dim, &bsdf, &one, &one);
         n = ql_vec_unit(surface.n, surface.inv_n);
         ray.origin = surface.p;
         ray.direction = ql_dir_round(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
@@ -311,7 +317,7 @@ TEST(albedo_1_loses_nothing_in_64_bounces)
         ql_sampler_begin(&sampler, s.sampler, s.seed, 0, 0);
         ql_sampler_start(&sampler, i);
         u = ql_sampler_2d(&sampler, QL_DIM_PIXEL);
-        CHECK(ql_camera_ray(&pixel, u.u1, u.u2, &ray), "no ray");
+        CHECK(ql_camera_ray(&pixel, u, u, &ray), "no ray");
         trace_white(&scene, &sampler, ray, s.bounces, &want);
         for (int k = 0; k < 3; k++) {
             want.rgb[k] += (uint64_t)ldexp(UNIT, QL_SUM_BITS - m.radiance_exp);

@@ -1,12 +1,15 @@
 /* test_api.c - the synopsis in qlux.h, and that no split changes a bit */
 /* SPDX-License-Identifier: MIT */
 
+#include <math.h>
 #include <stdlib.h>
 
+#include "estimate.h"
 #include "mini_scene.h"
 #include "ql_stats.h"
 #include "ql_test.h"
 #include "qlux.h"
+#include "sample/ql_square.h"
 
 enum { WIDTH = 32, HEIGHT = 24, SPP = 8 };
 
@@ -397,6 +400,178 @@ TEST(strategies_of_none_leave_only_what_is_seen)
     NOTE("%u pixels see the lamp", lit);
 }
 
+/* ---- Each decision has numbers of its own ------------------------------- */
+
+/* A square across the line of sight, 8000 ahead, from x to 4000 to the right of
+ * the middle; it faces the eye. */
+static void put_ahead(int32_t x, uint16_t material)
+{
+    const int32_t c[4][3] = {{16384 + x, 12384, 9000}, {16384 + x, 20384, 9000},
+            {20384, 20384, 9000}, {20384, 12384, 9000}};
+
+    mini_quad(&mini, c[0], c[1], c[2], c[3], material);
+    mini_eye(&mini, 16384, 16384, 1000);
+    mini_look(&mini, 0, 0, 0.5);
+}
+
+#if QL_CFG_LENS
+enum { GRID = 1024 };
+
+/* A ray meets the square at p + a radii to the right, p uniform in the pixel
+ * and a the first coordinate on the lens: how often is that beyond an edge? */
+static double share_beyond(double edge, bool tied)
+{
+    double sum = 0;
+
+    for (uint32_t i = 0; i < GRID; i++) {
+        const double u = (i + 0.5) / GRID;
+
+        if (!tied) {
+            const double a = edge - 1 + u * (2 - edge); /* to 1 */
+
+            sum += (2 - edge) * (a + 1 - edge) / acos(-1) * sqrt(1 - a * a);
+            continue;
+        }
+        for (uint32_t k = 0; k < GRID; k++) {
+            ql_q29_t a, b;
+
+            ql_warp_disk((uint32_t)(u * 0x1p32),
+                    (uint32_t)((k + 0.5) / GRID * 0x1p32), &a, &b);
+            sum += (2 * u - 1 + ldexp(a, -29) > edge) / (double)GRID;
+        }
+    }
+    return sum / GRID;
+}
+
+TEST(points_of_the_pixel_and_of_the_lens_are_unrelated)
+{
+    static const double p[2][3] = {{1000, 0, 0}, {0, 1000, 0}};
+    static const double none[2][3] = {{0, 0, 0}, {0, 0, 0}};
+    static const double right[3] = {0.0625, 0, 0}, up[3] = {0, 0.0625, 0};
+    const double exact = share_beyond(1.2, false);
+    const double tied = share_beyond(1.2, true);
+    double worst = 0;
+
+    mini_begin(&mini);
+    put_ahead(1200, mini_material(&mini, 0, 0.5));
+    mini_field(&mini, right, up);
+    mini_lens(&mini, p, none);
+    for (int sobol = 0; sobol < 2; sobol++) {
+        const ql_settings_t s = estimate_settings(
+                sobol ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM, 0, 3);
+        const stats_moments_t m = estimate_pixel(&mini, &s, 0, 0, 65536);
+        const double variance = 0.25 * exact * (1 - exact);
+        const double z = estimate_z(&m, 0.5 * exact, variance);
+
+        worst = fmax(worst, fabs(z));
+        CHECK(fabs(z) < 4, "mean %.5f, not %.5f, z = %.1f", 2 * m.mean, exact,
+                z);
+        CHECK(estimate_z(&m, 0.5 * tied, variance) < -4,
+                "one point for both would give %.5f too", tied);
+    }
+    NOTE("%.4f of the rays, z = %.1f; one point for both: %.4f", exact, worst,
+            tied);
+}
+#endif
+
+#if QL_CFG_STRATEGIES
+/* The kurtosis of what one sample gives is below 5 here, so the variance of
+ * SAMPLES is known to sqrt(4 / SAMPLES), or 1.6 percent, and the ratio of two
+ * to a tenth in four standard errors. */
+TEST(samples_of_a_light_vary_less_the_more_there_are)
+{
+    enum { SAMPLES = 16384, MORE = 16 };
+    static const int32_t lamp[4][3] = {{15384, 15384, 8000},
+            {18384, 15384, 8000}, {18384, 18384, 8000}, {15384, 18384, 8000}};
+    double off = 0;
+
+    mini_begin(&mini);
+    put_ahead(-4000, mini_material(&mini, 0.8, 0));
+    /* nearly above the point that is seen, and seen from behind itself */
+    mini_quad(&mini, lamp[0], lamp[1], lamp[2], lamp[3],
+            mini_material(&mini, 0, 0.5));
+    mini_eye(&mini, 16384, 16384, 8500);
+    for (int all = 0; all < 2; all++) {
+        ql_settings_t s = estimate_settings(QL_SAMPLER_RANDOM, 0, 8);
+        stats_moments_t one, more;
+        double ratio;
+
+        s.lights = all ? QL_LIGHTS_ALL : QL_LIGHTS_POWER;
+        one = estimate_pixel(&mini, &s, 0, 0, SAMPLES);
+        s.light_samples = MORE;
+        more = estimate_pixel(&mini, &s, 0, 0, SAMPLES);
+        ratio = stats_variance(&one) / stats_variance(&more) / MORE;
+        off = fmax(off, fabs(ratio - 1));
+        CHECK(fabs(ratio - 1) < 0.1, "all %d: %.3f of %d", all, ratio, MORE);
+    }
+    NOTE("off by %.1f percent; samples all alike would be by 94", 100 * off);
+}
+#endif
+
+#if QL_CFG_STRATEGIES && QL_CFG_MIRROR && QL_CFG_SKY
+/* Red is reflected by the mirror only, which is drawn half of the time. */
+TEST(roulette_does_not_depend_on_the_lobe_drawn)
+{
+    static const double albedo[3] = {0, 0.4, 0.4}, red[3] = {0.4, 0, 0};
+    static const double black[3] = {0, 0, 0};
+    ql_settings_t s = estimate_settings(QL_SAMPLER_RANDOM, 1, 9);
+    stats_moments_t m;
+    uint16_t material;
+    double z;
+
+    mini_begin(&mini);
+    material = mini_rgb(&mini, albedo, black);
+    mini_gloss_rgb(&mini, material, QL_GLOSS_MIRROR, red, 0);
+    mini.materials[material].chance = 0.5;
+    put_ahead(-4000, material);
+    mini_sky(&mini, 0.5, 0.5, 0.5);
+    s.roulette = 1;
+    m = estimate_pixel(&mini, &s, 0, 0, 65536);
+    /* 0.4 / 0.5 of the light half of the time, of which 0.8 survives: all of
+     * the light or none; by the number of the lobe that were half of it */
+    z = estimate_z(&m, 0.5 * 0.4, 0.25 * 0.4 * 0.6);
+    CHECK(fabs(z) < 4, "mean %.5f, not 0.2, z = %.1f", m.mean, z);
+    CHECK(estimate_z(&m, 0.5 * 0.5, 0.25 * 0.4 * 0.6) < -4,
+            "the same number for both would give 0.25 too");
+    NOTE("mean %.4f, z = %.1f", m.mean, z);
+}
+#endif
+
+#if QL_CFG_DIAG
+/* No picture tells: the surface itself hides such a light, but at its edges. */
+TEST(a_light_behind_a_surface_costs_no_shadow_ray)
+{
+    static const int32_t lamp[4][3] = {{15384, 15384, 10000},
+            {17384, 15384, 10000}, {17384, 17384, 10000},
+            {15384, 17384, 10000}};
+    ql_settings_t s = small();
+
+    for (int behind = 0; behind < 2; behind++) {
+        const int32_t z = behind ? 0 : -3000;
+        int32_t c[4][3];
+        ql_render_t render;
+        ql_sum_t sum = {{0, 0, 0}};
+
+        for (int i = 0; i < 4; i++) {
+            c[i][0] = lamp[behind ? 3 - i : i][0];
+            c[i][1] = lamp[behind ? 3 - i : i][1] + 2000;
+            c[i][2] = lamp[i][2] + z;
+        }
+        mini_begin(&mini);
+        put_ahead(-4000, mini_material(&mini, 0.8, 0));
+        mini_quad(&mini, c[0], c[1], c[2], c[3], mini_material(&mini, 0, 0.5));
+        mini_open(&mini, &scene);
+        s.bounces = 0;
+        render = begin(&s);
+        ql_render_pixel(&render, 0, 0, 0, 64, &sum);
+        CHECK(render.diag.paths == 64 &&
+                        render.diag.shadow_rays == (behind ? 0 : 64),
+                "behind %d: %lu shadow rays", behind,
+                (unsigned long)render.diag.shadow_rays);
+    }
+}
+#endif
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_api", argc, argv);
@@ -412,5 +587,17 @@ int main(int argc, char **argv)
     RUN(settings_at_their_limits_render);
     RUN(a_size_of_zero_is_the_scenes_own);
     RUN(strategies_of_none_leave_only_what_is_seen);
+#if QL_CFG_LENS
+    RUN(points_of_the_pixel_and_of_the_lens_are_unrelated);
+#endif
+#if QL_CFG_STRATEGIES
+    RUN(samples_of_a_light_vary_less_the_more_there_are);
+#endif
+#if QL_CFG_STRATEGIES && QL_CFG_MIRROR && QL_CFG_SKY
+    RUN(roulette_does_not_depend_on_the_lobe_drawn);
+#endif
+#if QL_CFG_DIAG
+    RUN(a_light_behind_a_surface_costs_no_shadow_ray);
+#endif
     return TEST_END();
 }

@@ -45,6 +45,66 @@ static void build(unsigned node_bits)
     mini_open(&mini, &scene);
 }
 
+/* Is every feature of the format built in? */
+#define ALL                                                                    \
+    (QL_CFG_SMOOTH && QL_CFG_PHONG && QL_CFG_MIRROR && QL_CFG_GLASS &&         \
+            QL_CFG_SPHERES && QL_CFG_SKY_MAP && QL_CFG_LENS)
+
+#if ALL
+/* A room with everything there is: spheres, smooth triangles, each material, a
+ * map of the sky, a table of three dimensions, a lens. */
+static void build_all(unsigned node_bits)
+{
+    static const int32_t balls[4][4] = {{2000000, 2000000, 5000000, 900000},
+            {4000000, 2000000, 5000000, 256},
+            {6000000, 4000000, 6000000, 1000000},
+            {4200000, 4200000, 6500000, 1200000}};
+    static const int32_t quad[4][3] = {{1000, 1000, 30000},
+            {30000, 1000, 28000}, {30000, 30000, 30000}, {1000, 30000, 28000}};
+    static const double right[3] = {0.3, 0, 0}, up[3] = {0, 0.3, 0};
+    static const double lens[2][2][3] = {
+            {{300, 0, 0}, {0, 300, 0}}, {{-0.01, 0, 0}, {0, -0.01, 0}}};
+    static const double weights[8] = {1, 2, 0, 4, 5, 0, 7, 8};
+    static const uint16_t count[3] = {2, 2, 2};
+    double rgb[32][3];
+    uint16_t white, lamp, material[4];
+    ql_scene_t scene;
+
+    mini_begin(&mini);
+    mini.node_bits = node_bits;
+    mini.leaf_max = 2;
+    white = mini_material(&mini, 0.7, 0);
+    lamp = mini_material(&mini, 0.2, 0.9);
+    material[0] = mini_material(&mini, 0.3, 0);
+    mini_gloss(&mini, material[0], QL_GLOSS_PHONG, 0.5, 20.5);
+    material[1] = mini_material(&mini, 0.1, 0);
+    mini_gloss(&mini, material[1], QL_GLOSS_MIRROR, 0.8, 0);
+    material[2] = mini_material(&mini, 0, 0);
+    mini_gloss(&mini, material[2], QL_GLOSS_GLASS, 0.9, 1.5);
+    material[3] = lamp;
+    for (int i = 0; i < 4; i++) {
+        const double normal[3] = {0.2 * i - 0.3, 0.1 * i, -0.9};
+
+        (void)mini_sphere(&mini, balls[i], balls[i][3], material[i]);
+        mini_normal(&mini,
+                mini_vertex(&mini, quad[i][0], quad[i][1], quad[i][2]), normal);
+    }
+    mini_face(&mini, 0, 2, 1, white);
+    mini_face(&mini, 0, 3, 2, material[0]);
+    for (int i = 0; i < 32; i++) {
+        rgb[i][0] = 0.9 / (1 + i);
+        rgb[i][1] = i % 5 ? 0.1 : 0;
+        rgb[i][2] = 0.001 * i * i;
+    }
+    (void)mini_table(&mini, 3, count, weights);
+    mini_sky_map(&mini, 8, 4, (const double(*)[3])rgb, 0.3);
+    mini_lens(&mini, lens[0], lens[1]);
+    mini_field(&mini, right, up);
+    mini.width = mini.height = 4;
+    mini_open(&mini, &scene);
+}
+#endif
+
 /* A copy of the blob, with nothing readable behind it. */
 static uint8_t *copy_of(size_t size)
 {
@@ -66,7 +126,15 @@ static bool all_zero(const ql_scene_t *scene)
            scene->triangles == zero.triangles && scene->pairs == zero.pairs &&
            scene->materials == zero.materials && scene->lights == zero.lights &&
            scene->light_count == 0 && scene->root_link == 0 &&
-           scene->root_meta == 0 && scene->node_bits == 0;
+           scene->root_meta == 0 && scene->node_bits == 0
+#if ALL
+           && scene->normals == NULL && scene->gloss == NULL &&
+           scene->gloss_count == 0 && scene->spheres == NULL &&
+           scene->sky == NULL && scene->texels == NULL &&
+           scene->tables == NULL && scene->words == NULL &&
+           scene->table_count == 0 && scene->lens == NULL
+#endif
+            ;
 }
 
 /* Open a copy; a refusal must leave nothing in the scene. */
@@ -112,9 +180,8 @@ TEST(a_good_blob_opens)
     }
 }
 
-TEST(a_blob_cut_at_any_byte_is_truncated)
+static void cut_anywhere(void)
 {
-    build(8);
     for (size_t size = 0; size < mini.size_bytes; size++) {
         uint8_t *copy = copy_of(size);
         ql_scene_t scene;
@@ -125,6 +192,16 @@ TEST(a_blob_cut_at_any_byte_is_truncated)
         free(copy);
     }
     NOTE("%u lengths", (unsigned)mini.size_bytes);
+}
+
+TEST(a_blob_cut_at_any_byte_is_truncated)
+{
+    build(8);
+    cut_anywhere();
+#if ALL
+    build_all(8);
+    cut_anywhere();
+#endif
 }
 
 TEST(an_unaligned_blob_is_refused)
@@ -232,6 +309,12 @@ static void try_damaged(const uint8_t *copy, size_t size)
     settings.spp = 2;
     settings.bounces = 3;
     settings.seed = (uint32_t)accepted;
+#if QL_CFG_STRATEGIES
+    settings.direct = (uint8_t)(accepted % (QL_DIRECT_MIS + 1));
+    settings.indirect = (uint8_t)(accepted / 8 % (QL_INDIRECT_BRDF + 1));
+    settings.lights = (uint8_t)(accepted / 4 % (QL_LIGHTS_UNIFORM + 1));
+    settings.roulette = accepted / 2 % 2;
+#endif
     if (ql_render_init(&render, &scene, &settings) == QL_OK) {
         const uint16_t right = (uint16_t)(render.settings.width - 1);
         const uint16_t bottom = (uint16_t)(render.settings.height - 1);
@@ -246,25 +329,35 @@ static void try_damaged(const uint8_t *copy, size_t size)
     }
 }
 
+static void flip_every_bit(void)
+{
+    for (size_t i = 0; i < 8 * mini.size_bytes; i++) {
+        uint8_t *copy = copy_of(mini.size_bytes);
+
+        copy[i / 8] ^= (uint8_t)(1u << i % 8);
+        if (i / 8 < 12 || i / 8 >= 16) {
+            repair(copy, mini.size_bytes);
+        }
+        try_damaged(copy, mini.size_bytes);
+        free(copy);
+    }
+}
+
+static void report(void)
+{
+    CHECK(accepted > 0 && refused > 0, "%lu opened, %lu refused", accepted,
+            refused);
+    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+}
+
 TEST(any_flipped_bit_with_the_crc_repaired_stays_inside)
 {
     accepted = refused = 0;
     for (unsigned bits = 8; bits <= 16; bits += 8) {
         build(bits);
-        for (size_t i = 0; i < 8 * mini.size_bytes; i++) {
-            uint8_t *copy = copy_of(mini.size_bytes);
-
-            copy[i / 8] ^= (uint8_t)(1u << i % 8);
-            if (i / 8 < 12 || i / 8 >= 16) {
-                repair(copy, mini.size_bytes);
-            }
-            try_damaged(copy, mini.size_bytes);
-            free(copy);
-        }
+        flip_every_bit();
     }
-    CHECK(accepted > 0 && refused > 0, "%lu opened, %lu refused", accepted,
-            refused);
-    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+    report();
 }
 
 /* Replace a few bytes, words or runs; interesting values more often. */
@@ -286,49 +379,57 @@ static void damage(uint8_t *copy, size_t size)
     }
 }
 
+static void damage_often(unsigned times)
+{
+    for (unsigned i = 0; i < times; i++) {
+        uint8_t *copy = copy_of(mini.size_bytes);
+
+        damage(copy, mini.size_bytes);
+        repair(copy, mini.size_bytes);
+        try_damaged(copy, mini.size_bytes);
+        free(copy);
+    }
+}
+
 TEST(random_damage_with_the_crc_repaired_stays_inside)
 {
     accepted = refused = 0;
     state = 1;
     for (unsigned bits = 8; bits <= 16; bits += 8) {
         build(bits);
-        for (unsigned i = 0; i < DAMAGED; i++) {
+        damage_often(DAMAGED);
+    }
+    report();
+}
+
+static void try_nasty_values(void)
+{
+    static const uint16_t values[] = {0, 1, 2, 3, 4, 7, 8, 15, 16, 17, 0x7fff,
+            0x8000, 0x8001, 0xfffe, 0xffff};
+
+    for (size_t at = 16; at + 2 <= mini.size_bytes; at += 2) {
+        for (size_t v = 0; v < sizeof values / sizeof values[0]; v++) {
             uint8_t *copy = copy_of(mini.size_bytes);
 
-            damage(copy, mini.size_bytes);
+            copy[at] = (uint8_t)(values[v] & 0xffu);
+            copy[at + 1] = (uint8_t)(values[v] >> 8);
             repair(copy, mini.size_bytes);
             try_damaged(copy, mini.size_bytes);
             free(copy);
         }
     }
-    CHECK(accepted > 0 && refused > 0, "%lu opened, %lu refused", accepted,
-            refused);
-    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
 }
 
 /* Aimed at what indices and counts lead to: every 16-bit field in turn takes
  * every nasty value. */
 TEST(nasty_values_in_every_field_stay_inside)
 {
-    static const uint16_t values[] = {0, 1, 2, 3, 4, 7, 8, 15, 16, 17, 0x7fff,
-            0x8000, 0x8001, 0xfffe, 0xffff};
-
     accepted = refused = 0;
     for (unsigned bits = 8; bits <= 16; bits += 8) {
         build(bits);
-        for (size_t at = 16; at + 2 <= mini.size_bytes; at += 2) {
-            for (size_t v = 0; v < sizeof values / sizeof values[0]; v++) {
-                uint8_t *copy = copy_of(mini.size_bytes);
-
-                copy[at] = (uint8_t)(values[v] & 0xffu);
-                copy[at + 1] = (uint8_t)(values[v] >> 8);
-                repair(copy, mini.size_bytes);
-                try_damaged(copy, mini.size_bytes);
-                free(copy);
-            }
-        }
+        try_nasty_values();
     }
-    NOTE("%lu opened and rendered, %lu refused", accepted, refused);
+    report();
 }
 
 TEST(a_tree_that_doubles_back_is_refused)
@@ -488,6 +589,239 @@ TEST(every_status_has_a_text)
             "of -99: %s", ql_status_text((ql_status_t)-99));
 }
 
+/* A bit of a feature that is not built in is refused by the feature's name. */
+TEST(features_that_are_not_built_in_are_named)
+{
+    unsigned named = 0;
+
+#define CHECK_NAME(name, bit, text)                                            \
+    {                                                                          \
+        ql_blob_header_t *header;                                              \
+        ql_scene_t scene;                                                      \
+        uint8_t *copy;                                                         \
+        ql_status_t status;                                                    \
+        build(QL_CFG_NODE16 ? 16 : 8);                                         \
+        copy = copy_of(mini.size_bytes);                                       \
+        header = (ql_blob_header_t *)(void *)copy;                             \
+        header->features |= QL_LE32((uint32_t)(name));                         \
+        repair(copy, mini.size_bytes);                                         \
+        status = open_copy(&scene, copy, mini.size_bytes);                     \
+        CHECK((status == QL_ERR_FEATURE) == (*ql_blob_missing(copy) != 0),     \
+                "%s: status %d, missing \"%s\"", text, status,                 \
+                ql_blob_missing(copy));                                        \
+        CHECK(*ql_blob_missing(copy) == 0 ||                                   \
+                        strcmp(ql_blob_missing(copy), text) == 0,              \
+                "%s is called %s", text, ql_blob_missing(copy));               \
+        named += *ql_blob_missing(copy) != 0;                                  \
+        free(copy);                                                            \
+    }
+    QL_FEATURE_LIST(CHECK_NAME)
+#undef CHECK_NAME
+    NOTE("%u named", named);
+}
+
+/* ---- Tables of features ------------------------------------------------ */
+
+#if ALL
+
+TEST(a_blob_with_every_table_opens)
+{
+    for (unsigned bits = 8; bits <= 16; bits += 8) {
+        ql_scene_t scene;
+        uint8_t *copy;
+
+        build_all(bits);
+        copy = copy_of(mini.size_bytes);
+        CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_OK, "%u bits",
+                bits);
+        CHECK(scene.gloss_count == 3 && scene.light_count == 2 &&
+                        scene.table_count == 2 && scene.lens != NULL &&
+                        scene.normals != NULL &&
+                        QL_LE16(scene.lights[1].triangle) == QL_LIGHT_SKY,
+                "%u bits: %u glossy, %u lights, %u tables", bits,
+                scene.gloss_count, scene.light_count, scene.table_count);
+        free(copy);
+    }
+}
+
+TEST(flipped_bits_of_every_table_stay_inside)
+{
+    accepted = refused = 0;
+    build_all(8);
+    flip_every_bit();
+    report();
+}
+
+TEST(random_damage_to_every_table_stays_inside)
+{
+    accepted = refused = 0;
+    state = 3;
+    build_all(16);
+    damage_often(DAMAGED);
+    report();
+}
+
+TEST(nasty_values_in_every_table_stay_inside)
+{
+    accepted = refused = 0;
+    build_all(16);
+    try_nasty_values();
+    report();
+}
+
+enum {
+#define MORE_INDEX(name, entry, needs) MORE_##name,
+    QL_BLOB_MORE_LIST(MORE_INDEX)
+#undef MORE_INDEX
+            CORE_triangles,
+    CORE_materials,
+    CORE_lights
+};
+
+/* Where a table is described: the entry in the header. */
+static ql_blob_table_t *described(uint8_t *copy, unsigned table)
+{
+    ql_blob_header_t *const h = (ql_blob_header_t *)(void *)copy;
+
+    return table == CORE_triangles   ? &h->triangles
+           : table == CORE_materials ? &h->materials
+           : table == CORE_lights    ? &h->lights
+                                  : (ql_blob_table_t *)(void *)(h + 1) + table;
+}
+
+typedef struct {
+    const char *rule;
+    unsigned table;
+    size_t at;      /* bytes into the table; COUNT is its count */
+    unsigned bytes; /* of the field */
+    uint32_t value;
+} broken_t;
+
+#define COUNT ((size_t)-1)
+#define IN(entry, i, field)                                                    \
+    ((i) * sizeof(entry) + offsetof(entry, field)), sizeof(((entry *)0)->field)
+
+/* The triangles are sorted by the tree; entry 0 here is the first sphere. */
+static size_t sphere_entry(const uint8_t *copy, const ql_blob_table_t *table)
+{
+    const ql_blob_tri_t *tri =
+            (const ql_blob_tri_t *)(const void *)(copy +
+                                                  QL_LE32(table->offset));
+    size_t i = 0;
+
+    while (tri[i].inv_n != 0) {
+        i++;
+    }
+    return i * sizeof *tri;
+}
+
+TEST(every_rule_of_every_table_is_checked)
+{
+    /* materials as written: Phong, mirror, glass, then diffuse ones */
+    static const broken_t broken[] = {
+            {"as many normals as vertices", MORE_normals, COUNT, 4, 3},
+            {"no more gloss than materials", MORE_gloss, COUNT, 4, 6},
+            {"a kind", MORE_gloss, IN(ql_blob_gloss_t, 0, kind), 0},
+            {"a known kind", MORE_gloss, IN(ql_blob_gloss_t, 0, kind), 4},
+            {"zero is zero", MORE_gloss, IN(ql_blob_gloss_t, 0, zero), 1},
+            {"Ks <= 1", MORE_gloss, IN(ql_blob_gloss_t, 1, specular[2]),
+                    0x80000001u},
+            {"Kd + Ks <= 1", MORE_gloss, IN(ql_blob_gloss_t, 1, specular[0]),
+                    0x7fffffffu},
+            {"chance <= 1", MORE_gloss, IN(ql_blob_gloss_t, 0, chance),
+                    0x80000001u},
+            {"a mirror has no exponent", MORE_gloss,
+                    IN(ql_blob_gloss_t, 1, parameter), 1},
+            {"glass always refracts", MORE_gloss,
+                    IN(ql_blob_gloss_t, 2, chance), 0x7fffffffu},
+            {"Ni >= 1/16", MORE_gloss, IN(ql_blob_gloss_t, 2, parameter), 4095},
+            {"Ni <= 64", MORE_gloss, IN(ql_blob_gloss_t, 2, parameter),
+                    4194305},
+            {"glass has no Kd", CORE_materials,
+                    IN(ql_blob_material_t, 2, albedo[1]), 1},
+            {"a unit of radius", MORE_spheres, IN(ql_blob_sphere_t, 1, radius),
+                    255},
+            {"not too large", MORE_spheres, IN(ql_blob_sphere_t, 0, radius),
+                    2000000 - 2047},
+            {"not past 0", MORE_spheres, IN(ql_blob_sphere_t, 1, centre[2]),
+                    256 + 2047},
+            {"not past the end", MORE_spheres,
+                    IN(ql_blob_sphere_t, 1, centre[0]), 32759 * 256 - 255},
+            {"one sky", MORE_sky, COUNT, 4, 0},
+            {"a wide map", MORE_sky, IN(ql_blob_sky_t, 0, width), 0},
+            {"a map of its size", MORE_sky, IN(ql_blob_sky_t, 0, height), 3},
+            {"a table", MORE_sky, IN(ql_blob_sky_t, 0, table), 2},
+            {"a table of its size", MORE_sky, IN(ql_blob_sky_t, 0, table), 0},
+            {"all texels", MORE_texels, COUNT, 4, 31},
+            {"exponents to 23", MORE_texels, IN(ql_blob_texel_t, 3, rgb9e5),
+                    24ul << 27},
+            {"1 to 3 dimensions", MORE_tables,
+                    IN(ql_blob_distribution_t, 0, dims), 4},
+            {"1 beyond them", MORE_tables,
+                    IN(ql_blob_distribution_t, 1, count[2]), 2},
+            {"rows among the words", MORE_tables,
+                    IN(ql_blob_distribution_t, 1, first), 15},
+            {"a first word", MORE_tables, IN(ql_blob_distribution_t, 0, first),
+                    1000000},
+            {"all words", MORE_words, COUNT, 4, 49},
+            {"rows that are not empty", MORE_words, 0, 2, 0},
+            {"one lens", MORE_lens, COUNT, 4, 0},
+            {"a lens within reach", MORE_lens,
+                    IN(ql_blob_lens_t, 0, p[1][2][1]), 0x40000001u},
+            {"rays within reach", MORE_lens, IN(ql_blob_lens_t, 0, d[0][1]),
+                    0xbfffffffu},
+            {"the sky is the last light", CORE_lights,
+                    IN(ql_blob_light_t, 1, triangle), 0},
+            {"lights in order", CORE_lights, IN(ql_blob_light_t, 0, triangle),
+                    65535},
+            {"a sphere there is", CORE_triangles,
+                    IN(ql_blob_tri_t, 0, vertex[0]), 4},
+            {"a sphere has one index", CORE_triangles,
+                    IN(ql_blob_tri_t, 0, vertex[2]), 1},
+            {"a sphere is on page 0", CORE_triangles,
+                    IN(ql_blob_tri_t, 0, material), 0x4000},
+    };
+    const size_t count = sizeof broken / sizeof broken[0];
+
+    build_all(16);
+    for (size_t i = 0; i < count; i++) {
+        const broken_t *const b = broken + i;
+        uint8_t *copy = copy_of(mini.size_bytes);
+        ql_blob_table_t *const table = described(copy, b->table);
+        uint8_t *at = b->at == COUNT ? (uint8_t *)&table->count
+                                     : copy + QL_LE32(table->offset) + b->at;
+        ql_scene_t scene;
+        ql_status_t status;
+
+        at += b->table == CORE_triangles ? sphere_entry(copy, table) : 0;
+        for (unsigned k = 0; k < b->bytes; k++) {
+            at[k] = (uint8_t)(b->value >> 8 * k & 0xffu);
+        }
+        repair(copy, mini.size_bytes);
+        status = open_copy(&scene, copy, mini.size_bytes);
+        CHECK(status == QL_ERR_RANGE, "%s: status %d", b->rule, status);
+        free(copy);
+    }
+    NOTE("%u rules", (unsigned)count);
+}
+
+/* Without spheres an entry of the table of triangles must be a triangle. */
+TEST(a_sphere_without_a_table_of_spheres_is_refused)
+{
+    ql_scene_t scene;
+    uint8_t *copy;
+
+    build(16);
+    copy = copy_of(mini.size_bytes);
+    memset(copy + QL_LE32(described(copy, CORE_triangles)->offset), 0, 12);
+    repair(copy, mini.size_bytes);
+    CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_ERR_RANGE, "status %d",
+            open_copy(&scene, copy, mini.size_bytes));
+    free(copy);
+}
+
+#endif
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_blob", argc, argv);
@@ -504,5 +838,14 @@ int main(int argc, char **argv)
     RUN(any_camera_and_any_triangles_stay_inside);
     RUN(a_tree_that_doubles_back_is_refused);
     RUN(every_status_has_a_text);
+    RUN(features_that_are_not_built_in_are_named);
+#if ALL
+    RUN(a_blob_with_every_table_opens);
+    RUN(flipped_bits_of_every_table_stay_inside);
+    RUN(random_damage_to_every_table_stays_inside);
+    RUN(nasty_values_in_every_table_stay_inside);
+    RUN(every_rule_of_every_table_is_checked);
+    RUN(a_sphere_without_a_table_of_spheres_is_refused);
+#endif
     return TEST_END();
 }

@@ -7,6 +7,7 @@
 #include "mini_scene.h"
 #include "ql_stats.h"
 #include "ql_test.h"
+#include "sample/ql_square.h"
 #include "scene/ql_camera.h"
 
 #define ONE (1 << QL_POS_BITS)
@@ -28,7 +29,16 @@ typedef struct {
 
 static mini_scene_t mini;
 static ql_scene_t scene;
-static uint64_t state;
+static uint64_t state, lens_state;
+
+static const ql_uniform2_t middle = {0x80000000u, 0x80000000u};
+
+static ql_uniform2_t pair(uint32_t u1, uint32_t u2)
+{
+    const ql_uniform2_t u = {u1, u2};
+
+    return u;
+}
 
 static double wide(const uint32_t words[2])
 {
@@ -40,11 +50,16 @@ static double narrow(uint32_t word)
     return ldexp(ql_i32(word), -30);
 }
 
-/* What the blob's fields say, after their own quantisation. */
-static reference_t reference(void)
+/* What the blob's fields say, after their own quantisation: a pinhole, moved to
+ * a point of the lens if there is one. */
+static reference_t reference(ql_uniform2_t lens)
 {
     reference_t r;
+    ql_q29_t at[2] = {0, 0};
 
+    if (mini.has_lens) {
+        ql_warp_disk(lens.u1, lens.u2, &at[0], &at[1]);
+    }
     for (unsigned k = 0; k < 3; k++) {
         r.p[k] = wide(mini.camera.p[k]);
         r.pr[k] = wide(mini.camera.pr[k]);
@@ -52,6 +67,10 @@ static reference_t reference(void)
         r.d[k] = narrow(mini.camera.d[k]);
         r.dr[k] = narrow(mini.camera.dr[k]);
         r.du[k] = narrow(mini.camera.du[k]);
+        for (unsigned i = 0; i < 2 && mini.has_lens; i++) {
+            r.p[k] += ldexp(at[i], -29) * wide(mini.lens.p[i][k]);
+            r.d[k] += ldexp(at[i], -29) * narrow(mini.lens.d[i][k]);
+        }
     }
     return r;
 }
@@ -76,12 +95,13 @@ static bool reference_ray(const reference_t *r, uint16_t width, uint16_t height,
     double enter = 0, leave = INFINITY;
 
     for (unsigned k = 0; k < 3; k++) {
-        double o, d, near, far;
+        origin->x[k] = r->p[k] + plane_x * r->pr[k] + plane_y * r->pu[k];
+        direction->x[k] = r->d[k] + plane_x * r->dr[k] + plane_y * r->du[k];
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        const double o = origin->x[k], d = direction->x[k];
+        double near, far;
 
-        o = r->p[k] + plane_x * r->pr[k] + plane_y * r->pu[k];
-        d = r->d[k] + plane_x * r->dr[k] + plane_y * r->du[k];
-        origin->x[k] = o;
-        direction->x[k] = d;
         if (d == 0) {
             if (o < 0 || o > QL_GRID_MAX) {
                 *margin = o < 0 ? o : QL_GRID_MAX - o;
@@ -119,7 +139,9 @@ static unsigned long checked, missed;
 static void check_ray(const ql_camera_t *camera, uint16_t width,
         uint16_t height, uint16_t x, uint16_t y, uint32_t u1, uint32_t u2)
 {
-    const reference_t r = reference();
+    const ql_uniform2_t lens = pair((uint32_t)stats_random(&lens_state),
+            (uint32_t)stats_random(&lens_state));
+    const reference_t r = reference(lens);
     /* the top 15 bits of u count, and stand for the middle of their cell */
     const double px = x + ((u1 >> 17) + 0.5) / 32768;
     const double py = y + ((u2 >> 17) + 0.5) / 32768;
@@ -130,7 +152,7 @@ static void check_ray(const ql_camera_t *camera, uint16_t width,
     bool got, expected;
 
     ql_camera_pixel(&pixel, camera, x, y);
-    got = ql_camera_ray(&pixel, u1, u2, &ray);
+    got = ql_camera_ray(&pixel, pair(u1, u2), lens, &ray);
     expected = reference_ray(
             &r, width, height, px, py, &origin, &direction, &margin);
     checked++;
@@ -140,15 +162,21 @@ static void check_ray(const ql_camera_t *camera, uint16_t width,
                 x, y, width, height, got, expected, margin);
         return;
     }
+    /* a ray that misses still has its direction */
+    d[0] = ray.direction.x;
+    d[1] = ray.direction.y;
+    d[2] = ray.direction.z;
+    angle = angle_between(d, direction.x);
+    worst_angle = fmax(worst_angle, angle);
+    CHECK(angle <= ANGLE_BOUND,
+            "pixel %u, %u of %u x %u: direction off by %.3f 2^-b rad", x, y,
+            width, height, ldexp(angle, QL_DIR_BITS));
     if (!got) {
         return;
     }
     o[0] = ray.origin.x;
     o[1] = ray.origin.y;
     o[2] = ray.origin.z;
-    d[0] = ray.direction.x;
-    d[1] = ray.direction.y;
-    d[2] = ray.direction.z;
     for (unsigned k = 0; k < 3; k++) {
         const double off = fabs(o[k] - origin.x[k] * ONE);
 
@@ -160,11 +188,6 @@ static void check_ray(const ql_camera_t *camera, uint16_t width,
                 "pixel %u, %u, axis %u: %.0f is outside the box", x, y, k,
                 o[k]);
     }
-    angle = angle_between(d, direction.x);
-    worst_angle = fmax(worst_angle, angle);
-    CHECK(angle <= ANGLE_BOUND,
-            "pixel %u, %u of %u x %u: direction off by %.3f 2^-b rad", x, y,
-            width, height, ldexp(angle, QL_DIR_BITS));
 }
 
 /* Corners, middles and random points of random pixels and the extreme ones. */
@@ -195,6 +218,7 @@ static void check_picture(uint16_t width, uint16_t height, unsigned count)
 static void begin(uint64_t seed)
 {
     state = seed;
+    lens_state = ~seed;
     worst_origin = worst_angle = 0;
     checked = missed = 0;
     mini_begin(&mini);
@@ -316,14 +340,14 @@ TEST(rays_away_from_the_box_miss)
         open_scene();
         CHECK(ql_camera_init(&camera, &scene, 1, 1), "side %u refused", i);
         ql_camera_pixel(&pixel, &camera, 0, 0);
-        CHECK(!ql_camera_ray(&pixel, 0x80000000u, 0x80000000u, &ray),
+        CHECK(!ql_camera_ray(&pixel, middle, middle, &ray),
                 "side %u: a ray from outside, away, enters", i);
         mini_look(&mini, -look[0], -look[1], -look[2]);
         mini.triangle_count = mini.vertex_count = mini.material_count = 0;
         open_scene();
         CHECK(ql_camera_init(&camera, &scene, 1, 1), "side %u refused", i);
         ql_camera_pixel(&pixel, &camera, 0, 0);
-        CHECK(ql_camera_ray(&pixel, 0x80000000u, 0x80000000u, &ray),
+        CHECK(ql_camera_ray(&pixel, middle, middle, &ray),
                 "side %u: a ray towards the box misses", i);
     }
 }
@@ -361,11 +385,12 @@ TEST(the_first_pixel_is_at_the_top_left)
     open_scene();
     CHECK(ql_camera_init(&camera, &scene, 10, 10), "refused");
     ql_camera_pixel(&pixel, &camera, 0, 0);
-    CHECK(ql_camera_ray(&pixel, 0, 0, &ray), "missed");
+    CHECK(ql_camera_ray(&pixel, pair(0, 0), middle, &ray), "missed");
     CHECK(ray.direction.x < 0 && ray.direction.y > 0, "%ld, %ld",
             (long)ray.direction.x, (long)ray.direction.y);
     ql_camera_pixel(&pixel, &camera, 9, 9);
-    CHECK(ql_camera_ray(&pixel, 0xffffffffu, 0xffffffffu, &ray), "missed");
+    CHECK(ql_camera_ray(&pixel, pair(0xffffffffu, 0xffffffffu), middle, &ray),
+            "missed");
     CHECK(ray.direction.x > 0 && ray.direction.y < 0, "%ld, %ld",
             (long)ray.direction.x, (long)ray.direction.y);
 }
@@ -383,6 +408,198 @@ TEST(a_picture_that_reaches_too_far_is_refused)
             "16384 x 1 reaches beyond 2^30 and was not refused");
 }
 
+/* ---- Lenses ------------------------------------------------------------ */
+
+#if QL_CFG_LENS
+
+/* A lens of this radius in grid units, across the axes of the picture, in focus
+ * where the direction has been followed so many times. */
+static void set_lens(double radius, double focus)
+{
+    const double p[2][3] = {{radius, 0, 0}, {0, radius, 0}};
+    const double d[2][3] = {{-radius / focus, 0, 0}, {0, -radius / focus, 0}};
+
+    mini_lens(&mini, p, d);
+}
+
+TEST(a_point_of_the_lens_moves_the_ray_as_the_reference_does)
+{
+    static const double right[3] = {0.31, 0.02, -0.1}, up[3] = {0.05, 0.28, 0};
+    static const double p[2][3] = {{100, -20, 3}, {-7, 250, 0.001}};
+    static const double d[2][3] = {{-0.01, 0.003, 0}, {0.02, -0.4, 1e-8}};
+
+    begin(11);
+    mini_eye(&mini, 12345.678, 3000.25, 20000.5);
+    mini_look(&mini, 0.1, -0.2, 0.6);
+    mini_field(&mini, right, up);
+    mini_lens(&mini, p, d);
+    open_scene();
+    check_picture(64, 48, 20000);
+    check_picture(320, 240, 20000);
+    report();
+}
+
+TEST(a_lens_of_an_eye_outside_enters_the_box_where_it_should)
+{
+    begin(12);
+    look_from_outside(20000);
+    set_lens(400, 60000);
+    open_scene();
+    check_picture(64, 48, 50000);
+    CHECK(missed < checked, "all rays miss");
+    report();
+}
+
+/* A picture so wide and a lens so large that directions have to be scaled. */
+TEST(a_very_large_lens_keeps_directions_in_range)
+{
+    static const double right[3] = {0.9, 0, 0}, up[3] = {0, 0.9, 0};
+    static const double p[2][3] = {{10000, 0, 0}, {0, 5000, 10000}};
+    static const double d[2][3] = {{1, -1, 0.5}, {-1, 1, 1}};
+
+    begin(13);
+    mini_look(&mini, 0, 0, 0.9);
+    mini_field(&mini, right, up);
+    mini_lens(&mini, p, d);
+    open_scene();
+    check_picture(64, 48, 20000);
+    check_picture(320, 64, 20000);
+    report();
+}
+
+/* Distance of the ray's line from a point, in positions. */
+static double line_distance(const ql_ray_t *ray, const double point[3])
+{
+    const double d[3] = {ray->direction.x, ray->direction.y, ray->direction.z};
+    const double s[3] = {point[0] - ray->origin.x, point[1] - ray->origin.y,
+            point[2] - ray->origin.z};
+    const double size = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double x = s[1] * d[2] - s[2] * d[1];
+    const double y = s[2] * d[0] - s[0] * d[2];
+    const double z = s[0] * d[1] - s[1] * d[0];
+
+    return sqrt(x * x + y * y + z * z) / size;
+}
+
+/* Worst distance of rays through one point of the picture from the point in
+ * focus, as a part of what origin and direction may err by. */
+static double focus_error(double focus)
+{
+    static const double right[3] = {0.2, 0, 0}, up[3] = {0, 0.2, 0};
+    const double from[3] = {16000, 15000, 2000}, radius = 600, at = 40000;
+    ql_camera_t camera;
+    ql_camera_pixel_t pixel;
+    double worst = 0, square = 0;
+    const int rays = 20000;
+
+    begin(14);
+    mini_eye(&mini, from[0], from[1], from[2]);
+    mini_look(&mini, 0, 0, 0.5);
+    mini_field(&mini, right, up);
+    set_lens(radius, focus);
+    open_scene();
+    CHECK(ql_camera_init(&camera, &scene, 8, 8), "refused");
+    ql_camera_pixel(&pixel, &camera, 2, 5);
+    for (int i = 0; i < rays; i++) {
+        const ql_uniform2_t lens = pair((uint32_t)stats_random(&lens_state),
+                (uint32_t)stats_random(&lens_state));
+        const double x = (2 * (2 + 0.5 + 0x1p-16) - 8) / 8;
+        const double y = (8 - 2 * (5 + 0.5 + 0x1p-16)) / 8;
+        /* followed "at" times; a camera's fields are rounded to 2^-30 */
+        const double point[3] = {(from[0] + at * 0.2 * x) * ONE,
+                (from[1] + at * 0.2 * y) * ONE, (from[2] + at * 0.5) * ONE};
+        const double bound = sqrt(3) * ORIGIN_BOUND +
+                             at * 0.6 * ONE * ANGLE_BOUND +
+                             4 * ldexp(at, -30) * ONE;
+        ql_ray_t ray;
+        double dx, dy;
+
+        CHECK(ql_camera_ray(&pixel, middle, lens, &ray), "ray %d missed", i);
+        worst = fmax(worst, line_distance(&ray, point) / bound);
+        dx = (double)ray.origin.x / ONE - from[0];
+        dy = (double)ray.origin.y / ONE - from[1];
+        square += (dx * dx + dy * dy) / (radius * radius) / rays;
+        CHECK(dx * dx + dy * dy <= (radius + 1) * (radius + 1) &&
+                        ray.origin.z == from[2] * ONE,
+                "ray %d begins off the lens", i);
+    }
+    /* of a disk 1/2, with a standard deviation of sqrt(1/12) a ray */
+    CHECK(fabs(square - 0.5) < STATS_Z_MAX * sqrt(1.0 / 12 / rays),
+            "mean square of the radius %.4f", square);
+    NOTE("%d rays within %.2f of the bound, mean r^2 %.4f", rays, worst,
+            square);
+    return worst;
+}
+
+TEST(rays_of_a_lens_meet_in_focus)
+{
+    const double worst = focus_error(40000);
+
+    CHECK(worst <= 1, "%.3f of the bound", worst);
+}
+
+TEST(a_focus_off_by_a_percent_is_detected)
+{
+    const double worst = focus_error(40400);
+
+    CHECK(worst > 2, "only %.3f of the bound", worst);
+}
+
+static bool same_ray(const ql_ray_t *a, const ql_ray_t *b)
+{
+    return a->origin.x == b->origin.x && a->origin.y == b->origin.y &&
+           a->origin.z == b->origin.z && a->direction.x == b->direction.x &&
+           a->direction.y == b->direction.y && a->direction.z == b->direction.z;
+}
+
+/* No lens, whatever its numbers, and one of no size: the same bits. */
+TEST(a_lens_of_no_size_changes_no_bit)
+{
+    static const double none[2][3] = {{0, 0, 0}, {0, 0, 0}};
+    static const double right[3] = {0.31, 0.02, -0.1}, up[3] = {0.05, 0.28, 0};
+    ql_camera_t camera;
+    ql_camera_pixel_t pixel;
+    static ql_ray_t rays[2][5000];
+
+    for (unsigned pass = 0; pass < 2; pass++) {
+        begin(15);
+        mini_eye(&mini, 12345.678, 3000.25, 20000.5);
+        mini_look(&mini, 0.1, -0.2, 0.6);
+        mini_field(&mini, right, up);
+        if (pass) {
+            mini_lens(&mini, none, none);
+            lens_state = 1;
+        }
+        open_scene();
+        CHECK(ql_camera_init(&camera, &scene, 64, 48), "refused");
+        for (unsigned i = 0; i < 5000; i++) {
+            const uint32_t u = (uint32_t)stats_random(&state);
+
+            ql_camera_pixel(&pixel, &camera, (uint16_t)(u % 64),
+                    (uint16_t)(u / 64 % 48));
+            (void)ql_camera_ray(&pixel, pair(u << 7, u * 77),
+                    pair((uint32_t)stats_random(&lens_state), ~u),
+                    &rays[pass][i]);
+            CHECK(pass == 0 || same_ray(&rays[0][i], &rays[1][i]), "ray %u", i);
+        }
+    }
+    NOTE("5000 rays");
+}
+
+TEST(a_lens_that_reaches_too_far_is_refused)
+{
+    static const double p[2][3] = {{9e8, 0, 0}, {9e8, 0, 0}};
+    static const double d[2][3] = {{0, 0, 0}, {0, 0, 0}};
+    ql_camera_t camera;
+
+    begin(16);
+    mini_lens(&mini, p, d);
+    open_scene();
+    CHECK(!ql_camera_init(&camera, &scene, 1, 1), "not refused");
+}
+
+#endif
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_camera", argc, argv);
@@ -394,5 +611,14 @@ int main(int argc, char **argv)
     RUN(pictures_of_every_size_follow_the_reference);
     RUN(the_first_pixel_is_at_the_top_left);
     RUN(a_picture_that_reaches_too_far_is_refused);
+#if QL_CFG_LENS
+    RUN(a_point_of_the_lens_moves_the_ray_as_the_reference_does);
+    RUN(a_lens_of_an_eye_outside_enters_the_box_where_it_should);
+    RUN(a_very_large_lens_keeps_directions_in_range);
+    RUN(rays_of_a_lens_meet_in_focus);
+    RUN(a_focus_off_by_a_percent_is_detected);
+    RUN(a_lens_of_no_size_changes_no_bit);
+    RUN(a_lens_that_reaches_too_far_is_refused);
+#endif
     return TEST_END();
 }

@@ -7,6 +7,7 @@
 #include "mini_scene.h"
 #include "ql_stats.h"
 #include "ql_test.h"
+#include "base/ql_settings.h"
 #include "sample/ql_warp.h"
 #include "scene/ql_light.h"
 
@@ -68,17 +69,20 @@ TEST(each_emitter_is_chosen_for_its_share_and_weighs_its_inverse)
             const ql_blob_tri_t *tri =
                     scene.triangles + QL_LE16(scene.lights[i].triangle);
             const ql_vec3_t corner = ql_scene_corner(&scene, tri, 0);
-            ql_light_point_t p, q;
+            const double weight =
+                    value(ql_light_weight(&scene, QL_LIGHTS_POWER, 1, i));
+            ql_light_point_t p;
 
-            ql_light_sample(&scene, first, 77, 99, &p);
-            ql_light_sample(&scene, last, 77, 99, &q);
-            CHECK(p.corner.x == corner.x && p.corner.y == corner.y &&
-                            p.corner.z == corner.z && q.corner.x == corner.x &&
-                            q.corner.y == corner.y && q.corner.z == corner.z,
+            CHECK(ql_light_choose(&scene, QL_LIGHTS_POWER, first) == i &&
+                            ql_light_choose(&scene, QL_LIGHTS_POWER, last) == i,
                     "light %u of %u: another one was chosen", i, lamps);
-            CHECK(fabs(value(p.weight) * two_pi * mass_of(i) - 1) < 1e-8,
+            ql_light_point(&scene, i, 77, 99, &p);
+            CHECK(p.corner.x == corner.x && p.corner.y == corner.y &&
+                            p.corner.z == corner.z,
+                    "light %u of %u: a point of another one", i, lamps);
+            CHECK(fabs(weight * two_pi * mass_of(i) - 1) < 1e-8,
                     "light %u of %u weighs %.9f, its mass is %.9f", i, lamps,
-                    value(p.weight), mass_of(i));
+                    weight, mass_of(i));
             CHECK(QL_LE32(p.material->emission[0]) > 0, "light %u is dark", i);
         }
     }
@@ -91,16 +95,86 @@ TEST(weights_times_probabilities_count_every_emitter_once)
 
     build(12);
     for (uint32_t k = 0; k < 65536; k++) {
-        ql_light_point_t p;
+        const uint16_t i =
+                ql_light_choose(&scene, QL_LIGHTS_POWER, k << 16 | 0x8000u);
 
-        ql_light_sample(&scene, k << 16 | 0x8000u, 1, 2, &p);
-        sum += value(p.weight) / 65536;
+        sum += value(ql_light_weight(&scene, QL_LIGHTS_POWER, 1, i)) / 65536;
     }
     sum *= 6.283185307179586;
     /* 2^16 steps of u resolve each mass to 2^-16 */
     CHECK(fabs(sum - 12) < 12.0 * 12 / 65536 * 200, "%.4f, not 12", sum);
     NOTE("%.4f of 12", sum);
 }
+
+#if QL_CFG_STRATEGIES
+/* The bounds of equal shares: the last u of each light and the next one. */
+TEST(uniform_choice_has_the_probability_it_divides_by)
+{
+    const double two_pi = 6.283185307179586;
+
+    for (unsigned lamps = 1; lamps <= 12; lamps++) {
+        uint64_t begin = 0;
+
+        build(lamps);
+        for (uint16_t i = 0; i < lamps; i++) {
+            /* light i has every u with floor(u lamps / 2^32) = i */
+            const uint64_t end =
+                    (((uint64_t)i + 1) * 4294967296u + lamps - 1) / lamps;
+            const double mass = (double)(end - begin) / 4294967296.0;
+            const double weight =
+                    value(ql_light_weight(&scene, QL_LIGHTS_UNIFORM, 1, i));
+
+            CHECK(ql_light_choose(&scene, QL_LIGHTS_UNIFORM, (uint32_t)begin) ==
+                                    i &&
+                            ql_light_choose(&scene, QL_LIGHTS_UNIFORM,
+                                    (uint32_t)(end - 1)) == i,
+                    "light %u of %u: another one was chosen", i, lamps);
+            CHECK(fabs(weight * two_pi * mass - 1) < 4e-9,
+                    "light %u of %u weighs %.10f, its mass is %.10f", i, lamps,
+                    weight, mass);
+            begin = end;
+        }
+        CHECK(begin == 4294967296u, "%u lights leave out numbers", lamps);
+    }
+}
+
+TEST(samples_divide_the_weight_and_all_lights_weigh_1)
+{
+    build(5);
+    for (unsigned n = 1; n <= 255; n++) {
+        const double all = value(ql_light_weight(&scene, QL_LIGHTS_ALL, n, 3));
+        const double one =
+                value(ql_light_weight(&scene, QL_LIGHTS_POWER, 1, 3));
+        const double part =
+                value(ql_light_weight(&scene, QL_LIGHTS_POWER, n, 3));
+
+        CHECK(fabs(all * n * 6.283185307179586 - 1) < 4e-9, "%u: %.10f", n,
+                all);
+        CHECK(fabs(part * n / one - 1) < 4e-9, "%u: %.10f", n, part * n / one);
+    }
+}
+
+TEST(each_light_is_found_by_its_triangle_and_nothing_else_is)
+{
+    for (unsigned lamps = 1; lamps <= 12; lamps++) {
+        unsigned found = 0;
+
+        build(lamps);
+        for (uint32_t t = 0; t <= 65535; t++) {
+            uint16_t light;
+
+            if (ql_light_find(&scene, (uint16_t)t, &light)) {
+                CHECK(light < lamps &&
+                                QL_LE16(scene.lights[light].triangle) == t,
+                        "triangle %lu is not light %u", (unsigned long)t,
+                        light);
+                found++;
+            }
+        }
+        CHECK(found == lamps, "%u of %u lights", found, lamps);
+    }
+}
+#endif
 
 /* ---- Points ------------------------------------------------------------ */
 
@@ -115,7 +189,8 @@ static void check_point(uint32_t pick, uint32_t u1, uint32_t u2)
     double exact[3];
     unsigned light = 0;
 
-    ql_light_sample(&scene, pick, u1, u2, &p);
+    ql_light_point(
+            &scene, ql_light_choose(&scene, QL_LIGHTS_POWER, pick), u1, u2, &p);
     while (light + 1u < scene.light_count &&
             QL_LE32(scene.lights[light + 1].cum) <= pick) {
         light++;
@@ -186,7 +261,7 @@ TEST(points_average_to_the_centre_of_gravity)
 
         const uint32_t jitter = (uint32_t)stats_random(&state);
 
-        ql_light_sample(&scene, 0, i << 22 | jitter >> 10,
+        ql_light_point(&scene, 0, i << 22 | jitter >> 10,
                 i >> 10 << 22 | (jitter & 0x3fffffu), &p);
         mean[0] += ldexp(p.q.x, -20) / ONE;
         mean[1] += ldexp(p.q.y, -20) / ONE;
@@ -208,6 +283,11 @@ int main(int argc, char **argv)
     TEST_BEGIN("unit/test_light", argc, argv);
     RUN(each_emitter_is_chosen_for_its_share_and_weighs_its_inverse);
     RUN(weights_times_probabilities_count_every_emitter_once);
+#if QL_CFG_STRATEGIES
+    RUN(uniform_choice_has_the_probability_it_divides_by);
+    RUN(samples_divide_the_weight_and_all_lights_weigh_1);
+    RUN(each_light_is_found_by_its_triangle_and_nothing_else_is);
+#endif
     RUN(points_are_within_half_a_unit);
     RUN(points_average_to_the_centre_of_gravity);
     return TEST_END();

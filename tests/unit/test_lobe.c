@@ -608,16 +608,34 @@ TEST(power_density_is_within_its_error)
 
 /* ---- The cone ---------------------------------------------------------- */
 
-static uint32_t cone_q31;
+static ql_real_t cone_real;
+static double cone_width;
+
+/* To nearest; exact if width has no more than 32 bits. */
+static ql_real_t real_of(double a)
+{
+    int e;
+    const double m = frexp(a, &e);
+    const ql_real_t r = {(uint32_t)llrint(fmin(ldexp(m, 32), 4294967295.0)),
+            (int16_t)(e - 32)};
+
+    return r;
+}
+
+static void set_cone(double s_max)
+{
+    cone_real = real_of(s_max);
+    cone_width = real(cone_real);
+}
 
 static point_t cone(uint32_t u1, uint32_t u2)
 {
-    return from_q29(ql_warp_cone(cone_q31, u1, u2));
+    return from_q29(ql_warp_cone(cone_real, u1, u2));
 }
 
 static double cone_below(point_t p)
 {
-    return p.s / ldexp(cone_q31, -31);
+    return p.s / cone_width;
 }
 
 /* 1 - z = ss / (1 + sqrt(1 - ss)) of the sine: for narrow cones. */
@@ -625,54 +643,70 @@ static double cone_below_by_sine(point_t p)
 {
     const double ss = fmin(p.x * p.x + p.y * p.y, 1);
 
-    return ss / (1 + sqrt(1 - ss)) / ldexp(cone_q31, -31);
+    return ss / (1 + sqrt(1 - ss)) / cone_width;
 }
 
 /* The fault: sin^2 = s, without the 2 - s. */
 static point_t cone_of_s(uint32_t u1, uint32_t u2)
 {
-    const double s = midpoint(u1) * ldexp(cone_q31, -31);
+    const double s = midpoint(u1) * cone_width;
     const double angle = 2 * PI * midpoint(u2), rho = sqrt(s);
     const point_t p = {rho * cos(angle), rho * sin(angle), 1 - s, s};
 
     return p;
 }
 
-static const uint32_t cones[] = {0x80000000u, 0x40000000u, 0x1126145eu,
-        10737418u, 107377u, 1074, 16, 3, 2, 1};
+/* The fault: s_max as u1.31, which small spheres do not have bits for. */
+static point_t cone_of_u1_31(uint32_t u1, uint32_t u2)
+{
+    ql_real_t cut = ql_real_from_u64((uint64_t)ldexp(cone_width, 31));
+
+    cut.e = (int16_t)(cut.e - 31);
+    return from_q29(ql_warp_cone(cut, u1, u2));
+}
+
+/* 1 - cos(theta_max); the last three are spheres of R/d = 10^-4 .. 10^-6. */
+static const double cones[] = {1, 0.5, 0.1339745962, 0.005012562893,
+        5.000125006e-5, 5e-7, 0x1p-27, 5.0000000125e-9, 5.00000000001e-11,
+        5e-13};
 
 enum { CONES = sizeof cones / sizeof cones[0] };
 
-TEST(cones_down_to_2_to_the_minus_31_match_their_density)
+/* x and y are rounded to 2^-30, so at the rim 1 - z is off by sqrt(2) times
+ * that of its half, the rim's size. */
+static double narrow_error(double s_max)
+{
+    return s_max > 0x1p-8 ? 0x1p-20 : 0x1p-28 / sqrt(2 * s_max);
+}
+
+TEST(cones_of_any_width_match_their_density)
 {
     double least = 1, worst = 0;
 
     for (int i = 0; i < CONES; i++) {
-        const bool wide = cones[i] > 0x01000000u;
+        const bool wide = cones[i] > 0x1p-8;
         double p, d;
 
-        cone_q31 = cones[i];
+        set_cone(cones[i]);
         p = chi2_p(cone, wide ? cone_below : cone_below_by_sine);
         least = fmin(least, p);
-        CHECK(p > STATS_P_MIN, "s_max = %lu: p = %.3g", (unsigned long)cones[i],
-                p);
-        /* x and y are rounded to 2^-30, rho is 2^-15 or more at the rim */
+        CHECK(p > STATS_P_MIN, "s_max = %g: p = %.3g", cones[i], p);
         d = marginal_d(cone, wide ? cone_below : cone_below_by_sine);
         worst = fmax(worst, d);
-        CHECK(d <= 0x1p-17 +
-                                (wide ? 0x1p-26
-                                      : 0x1p-29 / sqrt(ldexp(cones[i], -30))) +
+        CHECK(d <= 0x1p-17 + narrow_error(cones[i]) +
                                 (QL_CFG_PRECISION || wide ? 2e-7 : 9e-5),
-                "s_max = %lu: D = %.3g", (unsigned long)cones[i], d);
+                "s_max = %g: D = %.3g", cones[i], d);
     }
     NOTE("least p = %.3f of %d, worst D = %.2e", least, CONES, worst);
 }
 
 TEST(a_cone_of_another_width_is_rejected)
 {
-    cone_q31 = 1074;
+    set_cone(5e-7);
     CHECK(chi2_p(cone_of_s, cone_below_by_sine) <= STATS_P_MIN, "narrow");
-    cone_q31 = 0x40000000u;
+    set_cone(5.0000000125e-9);
+    CHECK(chi2_p(cone_of_u1_31, cone_below_by_sine) <= STATS_P_MIN, "cut");
+    set_cone(0.5);
     CHECK(chi2_p(cone, uniform_below) <= STATS_P_MIN, "as a hemisphere");
 }
 
@@ -683,16 +717,15 @@ TEST(cone_directions_have_unit_length_and_keep_inside)
     for (int i = 0; i < CONES; i++) {
         double a;
 
-        cone_q31 = cones[i];
+        set_cone(cones[i]);
         a = length_error(cone, 100000);
         worst = fmax(worst, a);
-        CHECK(a <= LENGTH_ERROR, "s_max = %lu: %.3g", (unsigned long)cones[i],
-                a);
+        CHECK(a <= LENGTH_ERROR, "s_max = %g: %.3g", cones[i], a);
         for (int k = 0; k < ENDS * ENDS; k++) {
             const point_t p = cone(ends[k % ENDS], ends[k / ENDS]);
 
-            CHECK(p.s <= ldexp(cones[i], -31) + 0x1p-30, "s_max = %lu: %.10g",
-                    (unsigned long)cones[i], p.s);
+            CHECK(p.s <= cone_width + 0x1p-30, "s_max = %g: %.10g", cones[i],
+                    p.s);
         }
     }
     NOTE("worst %.2e", worst);
@@ -700,29 +733,93 @@ TEST(cone_directions_have_unit_length_and_keep_inside)
 
 TEST(a_cone_of_no_width_is_its_axis)
 {
+    const ql_real_t zero = {0, 0};
+
     for (int k = 0; k < ENDS * ENDS; k++) {
-        const ql_vec3_t v = ql_warp_cone(0, ends[k % ENDS], ends[k / ENDS]);
+        const ql_vec3_t v = ql_warp_cone(zero, ends[k % ENDS], ends[k / ENDS]);
 
         CHECK(v.x == 0 && v.y == 0 && v.z == 1 << 29, "%ld %ld %ld", (long)v.x,
                 (long)v.y, (long)v.z);
     }
-    CHECK(ql_warp_cone_pdf(0).m == 0, "density %g", real(ql_warp_cone_pdf(0)));
+    CHECK(ql_warp_cone_pdf(zero).m == 0, "density %g",
+            real(ql_warp_cone_pdf(zero)));
+}
+
+TEST(a_cone_too_wide_ends_at_the_horizon)
+{
+    const ql_real_t wide = {0xffffffffu, 20};
+
+    for (int k = 0; k < ENDS * ENDS; k++) {
+        const ql_vec3_t v = ql_warp_cone(wide, ends[k % ENDS], ends[k / ENDS]);
+
+        CHECK(v.z >= 0 && v.z <= 1 << 29, "z = %ld", (long)v.z);
+    }
 }
 
 /* R/d = 0.1: 1 - cos = 0.005012562893, solid angle 0.03149486152. */
 TEST(cone_density_is_1_over_the_solid_angle)
 {
-    const uint32_t s = (uint32_t)lrint(ldexp(0.005012562893, 31));
-    const double got = 1 / real(ql_warp_cone_pdf(s));
+    const double got = 1 / real(ql_warp_cone_pdf(real_of(0.005012562893)));
+    uint64_t state = 17;
 
-    CHECK(fabs(got - 0.03149486152) < 1e-8, "%.12f", got);
-    for (uint32_t k = 1; k <= 0x80000000u - 12345u; k += 12345) {
-        const double is = real(ql_warp_cone_pdf(k)) * 2 * PI * ldexp(k, -31);
+    CHECK(fabs(got / 0.03149486152 - 1) < 0x1p-28 + 2e-10, "%.12f", got);
+    for (uint32_t k = 0; k < 200000; k++) {
+        const ql_real_t s = {(uint32_t)stats_random(&state) | 0x80000000u,
+                (int16_t)(-32 - (int)stats_random_below(&state, 60))};
+        const double is = real(ql_warp_cone_pdf(s)) * 2 * PI * real(s);
 
-        CHECK(fabs(is - 1) < 0x1p-28, "s_max = %lu: %.3g off", (unsigned long)k,
-                is - 1);
+        CHECK(fabs(is - 1) < 0x1p-28, "s_max = %g: %.3g off", real(s), is - 1);
     }
-    NOTE("solid angle %.9f", got);
+    NOTE("solid angle %.11f", got);
+}
+
+/* 1 - sqrt(1 - x) of what the mantissa says, without cancelling. */
+static double cone_error(ql_real_t ratio2)
+{
+    const long double x = ldexpl(ratio2.m, ratio2.e);
+    const ql_real_t s = ql_cone_of_sphere(ratio2);
+
+    CHECK(s.m >= 0x80000000u, "%Lg: mantissa %08lx", x, (unsigned long)s.m);
+    return (double)fabsl(ldexpl(s.m, s.e) * (1 + sqrtl(1 - x)) / x - 1);
+}
+
+TEST(the_cone_of_a_sphere_keeps_its_relative_precision)
+{
+    static const double ratios[][2] = {
+            {0.5, 0.1339745962}, {0.1, 0.005012562893}, {0.01, 5.000125006e-5}};
+    uint64_t state = 19;
+    double worst = 0;
+
+    for (int i = 0; i < 3; i++) {
+        const double r = ratios[i][0];
+        const double s = real(ql_cone_of_sphere(real_of(r * r)));
+
+        CHECK(fabs(s / ratios[i][1] - 1) < 1e-8, "R/d = %g: %.12g", r, s);
+    }
+    for (double r = 1e-6; r < 0.999999; r *= 1.0001) {
+        worst = fmax(worst, cone_error(real_of(r * r)));
+    }
+    for (long i = 0; i < 500000; i++) {
+        const uint32_t bits = (uint32_t)stats_random(&state);
+        const ql_real_t wide = {
+                ~(bits >> stats_random_below(&state, 31) >> 1), -32};
+        const ql_real_t any = {bits | 0x80000000u,
+                (int16_t)(-32 - (int)stats_random_below(&state, 64))};
+
+        worst = fmax(worst, fmax(cone_error(wide), cone_error(any)));
+    }
+    CHECK(worst <= 0x1p-27, "%.3g", worst);
+    NOTE("worst %.2e, bound %.2e; R/d from 10^-6", worst, 0x1p-27);
+}
+
+TEST(the_cone_at_or_inside_a_sphere_is_a_hemisphere)
+{
+    const ql_real_t zero = {0, 7};
+
+    CHECK(real(ql_cone_of_sphere(real_of(1))) == 1 &&
+                    real(ql_cone_of_sphere(real_of(1e9))) == 1 &&
+                    ql_cone_of_sphere(zero).m == 0,
+            "%g", real(ql_cone_of_sphere(real_of(1))));
 }
 
 /* ---- Frames ------------------------------------------------------------ */
@@ -878,11 +975,14 @@ int main(int argc, char **argv)
     RUN(power_lobes_have_unit_length);
     RUN(power_0_is_uniform_and_power_1_the_cosine);
     RUN(power_density_is_within_its_error);
-    RUN(cones_down_to_2_to_the_minus_31_match_their_density);
+    RUN(cones_of_any_width_match_their_density);
     RUN(a_cone_of_another_width_is_rejected);
     RUN(cone_directions_have_unit_length_and_keep_inside);
     RUN(a_cone_of_no_width_is_its_axis);
+    RUN(a_cone_too_wide_ends_at_the_horizon);
     RUN(cone_density_is_1_over_the_solid_angle);
+    RUN(the_cone_of_a_sphere_keeps_its_relative_precision);
+    RUN(the_cone_at_or_inside_a_sphere_is_a_hemisphere);
     RUN(frames_are_orthonormal_and_right_handed);
     RUN(a_frame_without_the_sign_is_rejected);
     RUN(frames_of_any_vector_are_defined);

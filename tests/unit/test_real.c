@@ -1,4 +1,4 @@
-/* test_real.c - reciprocals and roots within their bounds, densely sampled */
+/* test_real.c - reciprocals, roots, sums within their bounds */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
@@ -225,6 +225,156 @@ TEST(reciprocal_of_a_real_is_normal_and_of_zero_is_zero)
     }
 }
 
+/* ---- Root, product, sum and difference of reals ------------------------ */
+
+static long double value(ql_real_t a)
+{
+    return ldexpl(a.m, a.e);
+}
+
+static ql_real_t random_real(uint64_t *state, int below)
+{
+    const uint64_t bits = stats_random(state);
+    ql_real_t a = {(uint32_t)bits | 0x80000000u, 0};
+
+    a.e = (int16_t)((int)(bits >> 32) % (2 * below + 1) - below);
+    return a;
+}
+
+static long double root_worst;
+
+static void check_real_root(uint32_t m, int16_t e)
+{
+    const ql_real_t a = {m, e};
+    const ql_real_t r = ql_real_sqrt(a);
+    const long double error = fabsl(value(r) / sqrtl(value(a)) - 1);
+
+    root_worst = fmaxl(root_worst, error);
+    CHECK(r.m >= 0x80000000u && error <= 0x1p-29L,
+            "sqrt(%08lx 2^%d) = %08lx 2^%d, off by %.3Lg", (unsigned long)m, e,
+            (unsigned long)r.m, r.e, error);
+}
+
+TEST(square_root_of_a_real_is_within_2_to_the_minus_29)
+{
+    const ql_real_t zero = {0, 5};
+
+    root_worst = 0;
+    CHECK(ql_real_sqrt(zero).m == 0, "sqrt(0) is not 0");
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += 16 * STRIDE) {
+        check_real_root((uint32_t)m, -32);
+        check_real_root((uint32_t)m, -31);
+    }
+    for (uint32_t cell = 0x80000000u; cell != 0; cell += 0x800000u) {
+        for (uint32_t i = 0; i < 500; i++) {
+            check_real_root(cell + i, 0);
+            check_real_root(cell + i, 1);
+            check_real_root((cell - 1 - i) | 0x80000000u, -64);
+            check_real_root((cell - 1 - i) | 0x80000000u, -65);
+        }
+    }
+    for (int16_t e = -1000; e <= 1000; e++) {
+        check_real_root(0x80000000u, e);
+        check_real_root(0xffffffffu, e);
+        check_real_root(0x9e3779b9u, e);
+    }
+    NOTE("worst %.2Le, bound %.2e", root_worst, 0x1p-29);
+}
+
+TEST(products_and_quotients_as_calls_are_the_same)
+{
+    const ql_real_t zero = {0, 0};
+    uint64_t state = 7;
+    long double worst = 0;
+
+    for (long i = 0; i < 500000; i++) {
+        const ql_real_t a = random_real(&state, 90);
+        const ql_real_t b = random_real(&state, 90);
+        const ql_real_t product = ql_real_mul(a, b);
+        const ql_real_t called = ql_real_times(a, b);
+        const ql_real_t ratio = ql_real_over(a, b);
+        const long double error =
+                fabsl(value(ratio) / (value(a) / value(b)) - 1);
+
+        worst = fmaxl(worst, error);
+        CHECK(product.m == called.m && product.e == called.e, "%Lg * %Lg",
+                value(a), value(b));
+        CHECK(normal(ratio) && error <= 0x1p-28L, "%Lg / %Lg: off by %.3Lg",
+                value(a), value(b), error);
+        CHECK(ql_real_over(a, zero).m == 0 && ql_real_over(zero, a).m == 0,
+                "%Lg and 0", value(a));
+    }
+    NOTE("worst %.2Le, bound %.2e", worst, 0x1p-28);
+}
+
+TEST(sums_of_reals_are_within_2_to_the_minus_30)
+{
+    const ql_real_t zero = {0, 90};
+    uint64_t state = 4;
+    long double worst = 0;
+
+    for (long i = 0; i < 1000000; i++) {
+        const ql_real_t a = random_real(&state, 20);
+        const ql_real_t b = random_real(&state, i & 1 ? 20 : 60);
+        const ql_real_t r = ql_real_add(a, b);
+        const long double error = value(r) / (value(a) + value(b)) - 1;
+
+        worst = fminl(worst, error);
+        CHECK(normal(r) && error <= 0 && error > -0x1p-30L, "%Lg + %Lg: %Lg",
+                value(a), value(b), error);
+        CHECK(value(ql_real_add(a, zero)) == value(a) &&
+                        value(ql_real_add(zero, a)) == value(a),
+                "%Lg + 0", value(a));
+    }
+    CHECK(ql_real_add(zero, zero).m == 0, "0 + 0");
+    NOTE("worst %.2Le", worst);
+}
+
+TEST(differences_of_reals_are_within_an_ulp_of_the_first)
+{
+    const ql_real_t zero = {0, 90};
+    uint64_t state = 5;
+
+    for (long i = 0; i < 1000000; i++) {
+        const ql_real_t a = random_real(&state, 20);
+        ql_real_t b = random_real(&state, i & 1 ? 20 : 60);
+        long double exact, got;
+
+        if (i % 4 == 3) { /* nearly equal */
+            b = a;
+            b.m ^= (uint32_t)(i & 0xffff);
+        }
+        exact = fmaxl(value(a) - value(b), 0);
+        got = value(ql_real_sub(a, b));
+        CHECK(normal(ql_real_sub(a, b)) && got >= exact &&
+                        got - exact <= 0x1p-31L * value(a),
+                "%Lg - %Lg = %Lg", value(a), value(b), got);
+        CHECK(value(ql_real_sub(a, zero)) == value(a) &&
+                        ql_real_sub(zero, a).m == 0 && ql_real_sub(a, a).m == 0,
+                "%Lg and 0", value(a));
+    }
+}
+
+TEST(midpoints_are_exact_below_a_half_and_cut_above)
+{
+    uint64_t state = 6;
+
+    for (long i = 0; i < 1000000; i++) {
+        const uint64_t bits = stats_random(&state);
+        const uint32_t u = i < 1000   ? (uint32_t)i
+                           : i < 2000 ? 0u - (uint32_t)(i - 999)
+                                      : (uint32_t)bits >> (bits >> 32 & 31);
+        const ql_real_t a = ql_real_midpoint(u);
+        const long double exact = ldexpl(u + 0.5L, -32);
+
+        CHECK(a.m >= 0x80000000u &&
+                        (u < 0x80000000u ? value(a) == exact
+                                         : value(a) == exact - 0x1p-33L),
+                "%08lx", (unsigned long)u);
+        CHECK(ql_real_to_uq32(a) == u, "%08lx back", (unsigned long)u);
+    }
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_real", argc, argv);
@@ -235,5 +385,10 @@ int main(int argc, char **argv)
     RUN(whole_numbers_become_reals_cut_below_one_ulp);
     RUN(products_of_reals_are_cut_below_two_ulp);
     RUN(reciprocal_of_a_real_is_normal_and_of_zero_is_zero);
+    RUN(square_root_of_a_real_is_within_2_to_the_minus_29);
+    RUN(products_and_quotients_as_calls_are_the_same);
+    RUN(sums_of_reals_are_within_2_to_the_minus_30);
+    RUN(differences_of_reals_are_within_an_ulp_of_the_first);
+    RUN(midpoints_are_exact_below_a_half_and_cut_above);
     return TEST_END();
 }

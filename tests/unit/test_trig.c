@@ -1,10 +1,12 @@
-/* test_trig.c - sine and cosine over the whole turn against double */
+/* test_trig.c - sines, cosines, arc tangents against double and better */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
 
 #include "math/ql_lut.h"
 #include "math/ql_trig.h"
+#include "ql_nasty.h"
+#include "ql_stats.h"
 #include "ql_test.h"
 
 #define BOUND (QL_CFG_PRECISION == 0 ? 2.0e-5 : 4.2e-8)
@@ -103,6 +105,172 @@ TEST(a_quarter_turn_more_swaps_sine_and_cosine_exactly)
     }
 }
 
+/* ---- Real sine and arc tangent ----------------------------------------- */
+
+static const long double pi = 3.14159265358979323846264338327950288L;
+
+static long double value(ql_real_t a)
+{
+    return ldexpl(a.m, a.e);
+}
+
+static ql_real_t real_of(uint32_t m, int e)
+{
+    const ql_real_t r = {m, (int16_t)e};
+
+    return r;
+}
+
+static bool normal(ql_real_t a)
+{
+    return a.m >= 0x80000000u || a.m == 0;
+}
+
+static long double worst_small, worst_large;
+
+static void check_sin(ql_real_t x)
+{
+    const ql_real_t r = ql_real_sin(x);
+    const long double exact = value(x) >= pi ? 0 : sinl(value(x));
+    const long double error = fabsl(value(r) - exact);
+
+    if (value(x) <= pi / 2) {
+        worst_small = fmaxl(worst_small, error / exact);
+        CHECK(normal(r) && error <= exact * 0x1p-28L,
+                "sin %.12Lg: off by %.3Lg of itself", value(x), error / exact);
+    } else {
+        worst_large = fmaxl(worst_large, error);
+        CHECK(normal(r) && error <= 0x1p-29L, "sin %.12Lg: off by %.3Lg",
+                value(x), error);
+    }
+}
+
+TEST(real_sines_keep_the_bits_of_small_angles)
+{
+    const uint32_t middle = 0xc90fdaa2u; /* pi / 4, / 2, / 1 */
+
+    worst_small = worst_large = 0;
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += 9973) {
+        check_sin(real_of((uint32_t)m, -30));
+        check_sin(real_of((uint32_t)m, -31));
+        check_sin(real_of((uint32_t)m, -32));
+        check_sin(real_of((uint32_t)m, -33 - (int)(m % 60)));
+    }
+    for (uint32_t i = 0; i < 1000; i++) {
+        check_sin(real_of(middle - i, -31));
+        check_sin(real_of(middle + i, -31));
+        check_sin(real_of(middle - i, -30));
+        check_sin(real_of(middle + i, -30));
+    }
+    CHECK(ql_real_sin(real_of(0, 0)).m == 0, "sin 0");
+    CHECK(ql_real_sin(real_of(0x80000000u, 100)).m == 0, "sin of 2^131");
+    NOTE("worst %.2Le relative, %.2Le above pi/2", worst_small, worst_large);
+}
+
+static void check_atan(ql_real_t a)
+{
+    const ql_real_t r = ql_real_atan(a);
+    const long double error = fabsl(value(r) / atanl(value(a)) - 1);
+
+    worst_small = fmaxl(worst_small, error);
+    CHECK(normal(r) && error <= 0x1p-28L, "atan %.12Lg: off by %.3Lg of itself",
+            value(a), error);
+}
+
+TEST(real_arc_tangents_are_within_2_to_the_minus_28)
+{
+    worst_small = 0;
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += 9973) {
+        check_atan(real_of((uint32_t)m, -30));
+        check_atan(real_of((uint32_t)m, -31));
+        check_atan(real_of((uint32_t)m, -32));
+        check_atan(real_of((uint32_t)m, -33));
+        check_atan(real_of((uint32_t)m, -34));
+        check_atan(real_of((uint32_t)m, 100 - (int)(m % 200)));
+    }
+    for (uint32_t i = 0; i < 1000; i++) {
+        check_atan(real_of(0xffffffffu - i, -32));
+        check_atan(real_of(0x80000000u + i, -31));
+    }
+    CHECK(ql_real_atan(real_of(0, 0)).m == 0, "atan 0");
+    NOTE("worst %.2Le, bound %.2e", worst_small, 0x1p-28);
+}
+
+/* ---- The angle of a point ---------------------------------------------- */
+
+static void check_atan2(int32_t y, int32_t x)
+{
+    const ql_turn32_t got = ql_atan2(y, x);
+    const long double exact = ldexpl(atan2l(y, x) / (2 * pi), 32);
+    const long double off = remainderl(got - exact, 0x1p32L);
+
+    worst_small = fmaxl(worst_small, fabsl(off));
+    CHECK(fabsl(off) <= 4, "atan2(%ld, %ld) = %08lx, off by %.2Lf of 2^-32",
+            (long)y, (long)x, (unsigned long)got, off);
+}
+
+TEST(angles_of_points_are_within_2_to_the_minus_30_of_a_turn)
+{
+    uint64_t state = 1;
+
+    worst_small = 0;
+    for (size_t i = 0; i < NASTY_COUNT; i++) {
+        for (size_t j = 0; j < NASTY_COUNT; j++) {
+            check_atan2(ql_i32(nasty32[i]), ql_i32(nasty32[j]));
+        }
+    }
+    for (int32_t y = -300; y <= 300; y++) {
+        for (int32_t x = -300; x <= 300; x++) {
+            if (x != 0 || y != 0) {
+                check_atan2(y, x);
+            }
+        }
+    }
+    for (long i = 0; i < 1000000; i++) {
+        const uint64_t bits = stats_random(&state);
+        const unsigned down = (unsigned)stats_random_below(&state, 1024);
+
+        check_atan2(ql_asr32(ql_i32((uint32_t)bits), down & 31),
+                ql_asr32(ql_i32((uint32_t)(bits >> 32)), down >> 5));
+    }
+    /* a fine circle, and both sides of every diagonal and axis */
+    for (uint32_t i = 0; i < 400000; i++) {
+        const double angle = ldexp(i * 10737u + 0.5, -32) * 2 * (double)pi;
+
+        check_atan2((int32_t)lrint(ldexp(sin(angle), 30)),
+                (int32_t)lrint(ldexp(cos(angle), 30)));
+    }
+    for (int32_t i = -1000; i <= 1000; i++) {
+        check_atan2((1 << 30) + i, 1 << 30);
+        check_atan2((1 << 30) + i, -(1 << 30));
+        check_atan2(-(1 << 30) + i, 1 << 30);
+        check_atan2(-(1 << 30) + i, -(1 << 30));
+        check_atan2(i, INT32_MIN);
+        check_atan2(INT32_MIN, i);
+        check_atan2(i, INT32_MAX);
+        check_atan2(INT32_MAX, i);
+    }
+    NOTE("worst %.2Lf of 2^-32 turn, bound 4", worst_small);
+}
+
+TEST(the_axes_have_exact_angles_and_the_origin_has_0)
+{
+    static const int32_t sizes[] = {1, 2, 3, 1000, 1 << 30, INT32_MAX};
+
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const int32_t r = sizes[i];
+
+        CHECK(ql_atan2(0, r) == 0 && ql_atan2(r, 0) == 0x40000000u &&
+                        ql_atan2(0, -r) == 0x80000000u &&
+                        ql_atan2(-r, 0) == 0xc0000000u,
+                "size %ld", (long)r);
+    }
+    CHECK(ql_atan2(0, INT32_MIN) == 0x80000000u &&
+                    ql_atan2(INT32_MIN, 0) == 0xc0000000u &&
+                    ql_atan2(0, 0) == 0,
+            "the ends and the origin");
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_trig", argc, argv);
@@ -111,5 +279,9 @@ int main(int argc, char **argv)
     RUN(points_lie_on_the_unit_circle);
     RUN(quarter_turns_are_exact);
     RUN(a_quarter_turn_more_swaps_sine_and_cosine_exactly);
+    RUN(real_sines_keep_the_bits_of_small_angles);
+    RUN(real_arc_tangents_are_within_2_to_the_minus_28);
+    RUN(angles_of_points_are_within_2_to_the_minus_30_of_a_turn);
+    RUN(the_axes_have_exact_angles_and_the_origin_has_0);
     return TEST_END();
 }
