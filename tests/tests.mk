@@ -11,11 +11,13 @@ config_fine-san := $(config_fine) $(sanitize)
 config_draft-san := $(config_draft) $(sanitize)
 
 test_flags := -Werror -O2 -g
-test_hdr := $(wildcard tests/*.h tests/*/*.h tools/*.h tools/scene/*.h sim/*.h)
+test_hdr := $(wildcard tests/*.h tests/*/*.h tools/*.h tools/scene/*.h \
+    tools/ref/*.h sim/*.h)
 support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
     tests/known/double_pt.c tests/bench/bench_rays.c tests/bench/float_pt.c \
     firmware/*.c) $(addprefix tools/,cli.c image.c png.c deflate.c sums.c \
-    develop.c) $(filter-out %/scene_main.c,$(wildcard tools/scene/*.c))
+    develop.c) $(filter-out %_main.c,$(wildcard tools/scene/*.c \
+    tools/ref/*.c))
 
 # Under configuration $(1): the core, what tests share, and every test.
 define config_rules
@@ -41,6 +43,7 @@ $(foreach c,$(configs) fine-san draft-san,$(eval $(call config_rules,$(c))))
 
 unit := $(patsubst tests/%.c,%,$(wildcard tests/unit/test_*.c))
 tool := $(patsubst tests/%.c,%,$(wildcard tests/tools/test_*.c))
+extreme := $(patsubst tests/%.c,%,$(wildcard tests/extreme/extreme_*.c))
 known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c) \
     $(wildcard tests/stat/stat_*.c))
 
@@ -48,22 +51,29 @@ known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c) \
 in = $(foreach t,$(2),$(1)/$(t)|build/test/$(1)/$(t)$(if $(findstring \
     test_app,$(t)), build/cornell.qlb);)
 jobs_known := $(foreach c,fine draft,$(call in,$(c),$(known)))
-jobs_quick := $(call in,fine,$(unit) $(tool)) $(call in,draft,$(unit))
-jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool)))
+jobs_quick := $(call in,fine,$(unit) $(tool) $(extreme)) \
+    $(call in,draft,$(unit) $(extreme))
+jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool) \
+    $(extreme)))
 jobs_configs := $(foreach c,$(filter-out fine draft,$(configs)),$(call \
     in,$(c),$(unit)))
 jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/test_scene.sh; \
     tools/lut|tests/tools/test_lut.sh; \
+    tools/warp|tests/tools/test_warp.sh; \
+    tools/sheet|tests/tools/test_sheet.sh; \
+    tools/ref|tests/tools/test_ref.sh; \
     tools/recv|tests/tools/test_recv.sh build/qlux-recv build/test/fine/tools/stream_main;
 jobs_lint := lint/layers|tools/check_layers.sh; \
     lint/docs|tools/check_docs.sh; lint/format|tools/check_format.sh;
 jobs_boards := boards|tests/boards/test_boards.sh; \
     boards/stack|tests/tools/test_stack_report.sh; \
     bench|tests/bench/test_bench.sh;
+jobs_mutants := mutants|tests/mutants/run.sh;
 jobs_matrix := golden|tests/golden/run_matrix.sh; \
-    objects|tools/check_objects.sh;
+    objects|tools/check_objects.sh; \
+    extreme/build|tests/extreme/extreme_build.sh build;
 
 programs_of = $(filter build/test/%,$(subst |, ,$(subst ;, ,$(1))))
 
@@ -80,7 +90,7 @@ test: ## Run everything, on this PC and on every emulated board
 
 test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san) $(jobs_configs))
-	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
+	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
 quick := $(call programs_of,$(jobs_quick)) build/test/fine/tools/stream_main
 
@@ -94,6 +104,11 @@ test-known: build/cornell.qlb $(answers) ## Pictures whose answer is known
 
 test-san: $(call programs_of,$(jobs_san)) build/cornell.qlb ## Unit and tool tests under ASan and UBSan
 	$(call run,$(jobs_san))
+
+test-mutants: ## Plant faults in the core, one by one: a test has to see each
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) \
+	    $$(tests/mutants/run.sh --needs)
+	@CC="$(CC)" tests/mutants/run.sh
 
 lint: ## Layers, documents, format
 	$(call run,$(jobs_lint))
@@ -109,5 +124,5 @@ docs: ## Bring the generated file lists up to date
 golden-update: ## Rewrite the checksums of the golden pictures
 	tests/golden/run_matrix.sh --update
 
-.PHONY: test test-all test-quick test-known test-san lint check format docs \
-    golden-update
+.PHONY: test test-all test-quick test-known test-san test-mutants lint check \
+    format docs golden-update

@@ -1,4 +1,4 @@
-# bench.mk - instructions per ray and path on every board, ratios on this PC
+# bench.mk - instructions per ray, path and warp; ratios to float on this PC
 
 bench_obj := $(addprefix tests/bench/,bench_pc.o bench_rays.o float_pt.o)
 $(bench_obj:%=build/fine/%) $(bench_obj:%=build/draft/%): \
@@ -18,22 +18,75 @@ build/mesh.qlb build/mesh.h &: build/make-mesh build/qlux-scene
 	build/qlux-scene build/mesh.scene -o build/mesh.qlb \
 	    --features build/mesh.h --quiet
 
-bench: bench-boards bench-pc ## Instructions per ray and path; ratios to float
+# Warps: the same list of calls in a firmware and in a program.
+
+build/make-tables: $(addprefix build/host/tools/,cli.o scene/build_table.o) \
+    build/host/tests/bench/make_tables.o
+	$(link)
+
+build/bench_tables.h: build/make-tables
+	build/make-tables -o $@
+
+warps_obj := $(addprefix tests/bench/,warps_pc.o warp_list.o)
+warps_obj_both := $(warps_obj:%=build/fine/%) $(warps_obj:%=build/draft/%)
+$(warps_obj_both): HOST += -Ibuild -Itests/bench
+$(warps_obj_both): build/bench_tables.h tests/bench/warp_list.h
+
+# The layers that warps need.
+warps_src := $(wildcard $(addprefix firmware/,base/*.c math/*.c sample/*.c))
+
+build/warps-pc: $(warps_obj:%=build/fine/%) $(warps_src:%.c=build/fine/%.o)
+	$(link)
+
+build/warps-pc-draft: $(warps_obj:%=build/draft/%) \
+    $(warps_src:%.c=build/draft/%.o)
+	$(link)
+
+bench: bench-boards bench-warps bench-strategies bench-pc ## Instructions per ray, path and warp; ratios to float
+
+PRECISIONS ?= draft fine
+
+# $(call on_boards,BOARDS,NAME,OPTIONS): run a benchmark on each board, in each
+# precision. Each NAME has its own folder of object files.
+define on_boards
+@for board in $(1); do for precision in $(PRECISIONS); do \
+    $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
+        PRECISION=$$precision EMULATED=1 VARIANT=-$(2)-$$precision $(3) \
+        || exit; \
+done; done
+endef
+bench_main = BOARD_MAIN='$(addprefix tests/bench/,$(1) bench_board.c)'
 
 bench-boards: build/$(SCENE).qlb
-	@for board in $(BOARDS); do for precision in draft fine; do \
-	    $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
-	        PRECISION=$$precision EMULATED=1 VARIANT=-bench-$$precision \
-	        BOARD_MAIN='tests/bench/bench_main.c tests/bench/bench_rays.c' \
-	        || exit; \
-	done; done
+	$(call on_boards,$(BOARDS),bench,$(call \
+	    bench_main,bench_main.c bench_rays.c))
 	@for board in $(BOARDS); do \
 	    $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
-	        EMULATED=1 VARIANT=-bench-float FLOAT=1 OPT=-O2 BOARD_MAIN="$$(echo \
-	        tests/bench/bench_main.c tests/bench/bench_rays.c \
-	        tests/bench/float_pt.c)" > build/bench-float || exit; \
+	        EMULATED=1 VARIANT=-bench-float FLOAT=1 OPT=-O2 $(call bench_main,\
+	        bench_main.c bench_rays.c float_pt.c) > build/bench-float || exit; \
 	    grep ' float ' build/bench-float; \
 	done
+
+# WARP_BOARDS: where.
+WARP_BOARDS ?= $(BOARDS)
+
+bench-warps: build/$(SCENE).qlb build/bench_tables.h build/warps-pc \
+    build/warps-pc-draft ## Instructions per warp
+	$(call on_boards,$(WARP_BOARDS),warps,$(call \
+	    bench_main,bench_warps.c warp_list.c) STRATEGIES=1 \
+	    FIRMWARE_SRC='$(warps_src)' \
+	    CFLAGS_BOARD='-UQL_CFG_FEATURES_HEADER -Ibuild')
+	@tests/bench/count_warps.sh build/warps-pc-draft draft
+	@tests/bench/count_warps.sh build/warps-pc fine
+
+# STRATEGY_BOARDS, STRATEGY_BOUNCES: where, and how long paths are.
+STRATEGY_BOARDS ?= lm3s6965evb microbit
+STRATEGY_BOUNCES ?= 3
+
+bench-strategies: build/$(SCENE).qlb ## Instructions per path under each direct strategy
+	$(call on_boards,$(STRATEGY_BOARDS),strategies,$(call \
+	    bench_main,bench_strategies.c) STRATEGIES=1 \
+	    CFLAGS_BOARD='-DQL_BENCH_BOUNCES=$(STRATEGY_BOUNCES)')
 
 ifneq ($(BOARD),)
 ifneq ($(and $(FLOAT),$(BOARD_FPU)),)
@@ -54,4 +107,8 @@ bench-pc: build/bench-pc build/bench-pc-draft build/$(SCENE).qlb build/mesh.qlb
 	@tests/bench/count_pc.sh build/bench-pc-draft draft \
 	    build/$(SCENE).qlb build/mesh.qlb
 
-.PHONY: bench bench-boards bench-board bench-pc
+strategies: ## Noise and cost of each direct strategy, as a table and a picture
+	@MAKE='$(MAKE)' tools/strategies.sh $(STRATEGY_OPTIONS)
+
+.PHONY: bench bench-boards bench-board bench-pc bench-warps bench-strategies \
+    strategies

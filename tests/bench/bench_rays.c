@@ -3,12 +3,14 @@
 
 #include "bench_rays.h"
 
+#include "base/ql_settings.h"
+#include "render/ql_aim.h"
 #include "sample/ql_warp.h"
 #include "scene/ql_light.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface.h"
 
-/* As cosine_direction() of ql_path.c. Out of line, so that it can be timed. */
+/* As cosine_direction() of ql_bsdf.c. Out of line, so that it can be timed. */
 QL_NOINLINE ql_vec3_t bench_direction(const bench_warp_t *warp)
 {
     const ql_vec3_t n = ql_vec_unit(warp->n, warp->inv_n);
@@ -18,7 +20,7 @@ QL_NOINLINE ql_vec3_t bench_direction(const bench_warp_t *warp)
     return ql_vec_dot_n(d, warp->n) > 0 ? d : ql_dir_round(n);
 }
 
-/* As ql_direct_area(), up to the segment it tests. */
+/* As ql_direct_light(), up to the segment it tests. */
 static void add_shadow(bench_batch_t *batch, const ql_scene_t *scene,
         const ql_sampler_t *sampler, uint32_t dim, const ql_surface_t *surface)
 {
@@ -26,24 +28,15 @@ static void add_shadow(bench_batch_t *batch, const ql_scene_t *scene,
             scene->light_count < 2
                     ? 0
                     : ql_sampler_1d(sampler, dim + QL_DIM_LIGHT_PICK);
+    const uint16_t light = ql_light_choose(scene, QL_LIGHTS_POWER, pick);
     const ql_uniform2_t u = ql_sampler_2d(sampler, dim + QL_DIM_LIGHT_POINT);
     ql_light_point_t point;
     ql_ray_t ray;
-    ql_vec3_t n;
 
-    ql_light_sample(scene, pick, u.u1, u.u2, &point);
-    n = point.n;
     ray.origin = surface->p;
-    ray.direction = ql_vec_sub(point.q, surface->p);
-    if (scene->two_sided && ql_vec_dot_n(ray.direction, n) > 0) {
-        n.x = -n.x;
-        n.y = -n.y;
-        n.z = -n.z;
-    }
-    (void)ql_surface_step(&point.q, point.corner, n);
-    ray.direction = ql_vec_sub(point.q, surface->p);
-    if (ql_vec_dot_n(ray.direction, surface->n) > 0 &&
-            ql_vec_dot_n(ray.direction, n) < 0) {
+    if (ql_aim_at_point(scene, light, surface->p, u, &point, &ray.direction) >
+                    0 &&
+            ql_vec_dot_n(ray.direction, surface->n) > 0) {
         batch->shadow[batch->shadow_count++] = ray;
     }
 }
@@ -110,7 +103,7 @@ static void add_sample(bench_batch_t *batch, const ql_render_t *render,
     ql_sampler_begin(&sampler, s->sampler, s->seed, x, y);
     ql_sampler_start(&sampler, sample);
     u = ql_sampler_2d(&sampler, QL_DIM_PIXEL);
-    if (ql_camera_ray(&pixel, u.u1, u.u2, &ray)) {
+    if (ql_camera_ray(&pixel, u, u, &ray)) {
         add_path(batch, render, &sampler, ray);
     }
 }

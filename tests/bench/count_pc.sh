@@ -57,6 +57,6 @@ rows() {
 }
 
 rows closest ql_bvh_closest_hit closest
-rows shadow ql_bvh_occluded shadow
+rows shadow ql_bvh_occluded_but shadow
 rows float-closest fp_closest closest
 rows float-shadow fp_occluded shadow

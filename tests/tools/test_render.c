@@ -11,7 +11,7 @@
 #include "qlux.h"
 #include "sim/sim_render.h"
 
-enum { WIDTH = 33, HEIGHT = 21, SPP = 5, BYTES_MAX = 3 * WIDTH };
+enum { WIDTH = 33, HEIGHT = 21, BYTES_MAX = 3 * WIDTH };
 
 static int failures;
 
@@ -68,9 +68,10 @@ static bool lines_agree(
 }
 
 /* Sums, as the simulator makes them. Returns the paths it counted. */
-static uint64_t fill_sums(sums_t *sums, const ql_render_t *render)
+static uint64_t fill_sums(
+        sums_t *sums, const ql_render_t *render, const char *finishes)
 {
-    static const sums_range_t all = {0, HEIGHT, 0, SPP};
+    sums_range_t all = {0, HEIGHT, 0, 0};
     const ql_blob_header_t *h = render->scene->header;
     sums_range_t clash;
     sim_stats_t stats;
@@ -83,39 +84,61 @@ static uint64_t fill_sums(sums_t *sums, const ql_render_t *render)
     sums->field[SUMS_EXPOSURE_Q8] =
             (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->exposure_q8));
     sums_new(sums);
+    all.sample_end = render->settings.spp;
     (void)sums_claim(sums, &all, &clash);
     check(sim_render(sums, render, &all, 3, true, &stats), "the_simulator",
-            "finishes");
+            finishes);
     return stats.paths;
+}
+
+/* With all samples, or as many as each pixel needs. */
+static void compare(const ql_scene_t *scene, uint32_t spp, uint16_t error_q16)
+{
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+    const char *claim = error_q16 != 0 ? "sim_and_line_end_alike_in"
+                                       : "sim_and_line_agree_on";
+    ql_render_t render;
+    sums_t sums;
+    uint64_t paths;
+
+    settings.width = WIDTH;
+    settings.height = HEIGHT;
+    settings.spp = spp;
+#if QL_CFG_ADAPTIVE
+    settings.error_q16 = error_q16;
+#endif
+    if (ql_render_init(&render, scene, &settings) != QL_OK) {
+        cli_fail(CLI_INPUT, "the settings are refused");
+    }
+    paths = fill_sums(&sums, &render,
+            error_q16 != 0 ? "finishes_pixels_early" : "finishes");
+    for (int f = 0; f < QL_FORMAT_COUNT; f++) {
+        render.diag.paths = 0;
+        check(lines_agree(&render, &sums, (ql_format_t)f), claim,
+                develop_formats[f]);
+    }
+    check(render.diag.paths == paths && paths > 0 &&
+                    (error_q16 == 0) ==
+                            (sums.counts == NULL &&
+                                    paths == (uint64_t)spp * WIDTH * HEIGHT),
+            claim, "the_number_of_paths");
+    sums_free(&sums);
 }
 
 int main(void)
 {
-    ql_settings_t settings = QL_SETTINGS_DEFAULT;
-    ql_render_t render;
     ql_scene_t scene;
-    sums_t sums;
-    uint64_t paths;
     size_t size;
     void *blob;
 
     cli_begin("test_render");
     blob = box_scene(&size);
-    settings.width = WIDTH;
-    settings.height = HEIGHT;
-    settings.spp = SPP;
-    if (ql_blob_open(&scene, blob, size) != QL_OK ||
-            ql_render_init(&render, &scene, &settings) != QL_OK) {
+    if (ql_blob_open(&scene, blob, size) != QL_OK) {
         cli_fail(CLI_INPUT, "the scene does not open");
     }
-    paths = fill_sums(&sums, &render);
-    for (int f = 0; f < QL_FORMAT_COUNT; f++) {
-        render.diag.paths = 0;
-        check(lines_agree(&render, &sums, (ql_format_t)f),
-                "sim_and_line_agree_on", develop_formats[f]);
-    }
-    check(render.diag.paths == paths && paths > 0, "sim_and_line_agree_on",
-            "the_number_of_paths");
-    sums_free(&sums);
+    compare(&scene, 5, 0);
+#if QL_CFG_ADAPTIVE
+    compare(&scene, 200, 0x4000);
+#endif
     return failures != 0;
 }

@@ -5,41 +5,18 @@
 # Usage: tests/tools/test_sim.sh [BUILD [SCENE.qlb]]
 # Example: tests/tools/test_sim.sh build
 
-build=$(cd "${1:-build}" && pwd) || exit 3
-root=$(cd "$(dirname "$0")/../.." && pwd)
-work=$(mktemp -d) || exit 3
-trap 'rm -rf "$work"' EXIT
+suite=tools/test_sim
+. "$(dirname "$0")/claims.sh"
 sim=$build/qlux-sim
 merge=$build/qlux-merge
-failures=0
 
 # The scene: the one given, or the Cornell box.
 if [ -n "${2:-}" ]; then
-    cp "$2" "$work/scene.qlb" || exit 3
+    (cd "$OLDPWD" && cat "$2") >scene.qlb || exit 3
 else
-    "$build/qlux-scene" "$root/tests/scenes/cornell.scene" \
-        -o "$work/scene.qlb" >"$work/out.txt" || exit 3
+    "$build/qlux-scene" "$root/tests/scenes/cornell.scene" -o scene.qlb \
+        >out.txt || exit 3
 fi
-cd "$work" || exit 3
-
-say() { # claim, what it evaluates to
-    if [ "$2" -eq 0 ]; then
-        printf '%-20s %-52s ok\n' tools/test_sim "$1"
-    else
-        printf '%-20s %-52s FAIL\n' tools/test_sim "$1"
-        failures=$((failures + 1))
-    fi
-}
-
-# expect CLAIM CODE TEXT COMMAND...: the exit code, and TEXT on stderr
-expect() {
-    claim=$1 code=$2 text=$3
-    shift 3
-    "$@" >out.txt 2>err.txt
-    got=$?
-    grep -q -- "$text" err.txt && [ "$got" -eq "$code" ]
-    say "$claim" $?
-}
 
 # Nothing in the folder that was not there before, but for the logs.
 nothing_left() { # claim
@@ -77,15 +54,24 @@ expect rows_below_the_picture_are_refused 1 'from 0 to 8' \
     "$sim" scene.qlb -o a.ppm --size 8x8 --rows 4:9
 expect samples_beyond_spp_are_refused 1 'ends before' \
     "$sim" scene.qlb -o a.ppm --spp 4 --samples 2:5
-expect direct_mis_is_not_supported_yet 1 \
-    "'--direct mis' is not supported by this version" \
-    "$sim" scene.qlb -o a.ppm --direct mis
-expect indirect_brdf_is_not_supported_yet 1 'not supported by this version' \
-    "$sim" scene.qlb -o a.ppm --indirect brdf
-expect lights_all_is_not_supported_yet 1 'not supported by this version' \
-    "$sim" scene.qlb -o a.ppm --lights all
-expect two_light_samples_are_not_supported_yet 1 'not supported' \
-    "$sim" scene.qlb -o a.ppm --light-samples 2
+for n in 0 256 x; do
+    expect "light_samples_${n}_are_refused" 1 "'--light-samples $n'" \
+        "$sim" scene.qlb -o a.ppm --light-samples "$n"
+done
+for e in 1 -0.1 1e-9 nan x 0.1x ''; do
+    expect "error_'$e'_is_refused" 1 "'--error $e'\|needs a value" \
+        "$sim" scene.qlb -o a.ppm --error "$e"
+done
+expect error_with_sums_is_refused 1 "'--error' goes with neither" \
+    "$sim" scene.qlb --save-sums a.qls --error 0.1
+expect error_with_samples_is_refused 1 "'--error' goes with neither" \
+    "$sim" scene.qlb -o a.ppm --samples 0:4 --error 0.1
+expect a_map_that_is_no_pfm_is_refused 1 'expected a .pfm' \
+    "$sim" scene.qlb -o a.ppm --samples-map a.ppm
+expect indirect_of_no_name_lists_the_names 1 'uniform or brdf' \
+    "$sim" scene.qlb -o a.ppm --indirect magic
+expect lights_of_no_name_lists_the_names 1 'all or uniform' \
+    "$sim" scene.qlb -o a.ppm --lights magic
 expect a_strategy_of_no_name_lists_the_names 1 'solid-angle or mis' \
     "$sim" scene.qlb -o a.ppm --direct magic
 expect threads_0_are_refused 1 'from 1 to 1024' \
@@ -194,6 +180,24 @@ same a_second_run_gives_the_same_picture t1.ppm whole.ppm
 ! cmp -s dark.ppm whole.ppm
 say direct_none_indirect_none_shows_only_emitters $?
 
+ends="--size 20x14 --spp 256 --error 0.2 --quiet"
+for t in 1 2 7; do
+    "$sim" scene.qlb -o e$t.ppm --samples-map m$t.pfm $ends --threads $t
+done
+same threads_change_no_bit_of_pixels_that_end_by_themselves e1.ppm e2.ppm e7.ppm
+same threads_change_no_pixels_number_of_samples m1.pfm m2.pfm m7.pfm
+"$sim" scene.qlb -o some.ppm $ends --rows 5:6
+head=$(($(wc -c <e1.ppm) - 20 * 14 * 3))
+tail -c +$((head + 1 + 300)) e1.ppm | head -c 60 >a.txt
+tail -c +$((head + 1 + 300)) some.ppm | head -c 60 >b.txt
+cmp -s a.txt b.txt
+say rows_change_no_bit_of_pixels_that_end_by_themselves $?
+"$sim" scene.qlb -o off.ppm $small --error 0
+same error_0_is_off whole.ppm off.ppm
+"$sim" scene.qlb -o few.ppm $small --error 0.9
+same fewer_samples_than_the_least_are_all_taken whole.ppm few.ppm
+rm -f some.ppm off.ppm few.ppm e?.ppm m?.pfm
+
 n=0
 for r in 0:5 5:6 6:14; do
     for s in 3:8 0:1 1:3; do
@@ -261,6 +265,11 @@ say a_failed_merge_leaves_nothing $?
 "$sim" scene.qlb --save-sums n.qls $small --stats >stats.txt
 grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 7 ]
 say stats_are_seven_numbers $?
+"$sim" scene.qlb -o n.ppm --size 20x14 --spp 256 --error 0.2 --quiet --stats \
+    >stats.txt
+awk '/^paths: /{p = $2} /^samples-per-pixel: /{s = $2}
+    END {exit !(s >= 32 && s < 256 && p > 0 && p <= s * 280 + 1)}' stats.txt
+say stats_tell_the_mean_number_of_samples $?
 for f in rgb888 rgb565le rgb565be gray8 gray4; do
     "$sim" scene.qlb -o $f.ppm --format $f $small || failures=$((failures + 1))
 done

@@ -1,0 +1,196 @@
+#!/bin/sh
+# extreme_build.sh - case 55 on compilers and machines; the extremes of programs
+# SPDX-License-Identifier: MIT
+#
+# usage: tests/extreme/extreme_build.sh [BUILD]
+#   BUILD  where qlux-scene, qlux-sim and qlux-merge are; build unless given
+#
+# Prints "extreme/build CLAIM ok" a claim; a compiler or emulator that is
+# missing is a failure. Works in BUILD/extreme.
+#
+# Example: tests/extreme/extreme_build.sh build
+
+set -u
+build=${1:-build}
+work=$build/extreme
+failed=0
+mkdir -p "$work" || exit 3
+
+say() { # claim, what it evaluates to, note
+    if [ "$2" -eq 0 ]; then
+        printf '%-20s %-52s ok   %s\n' extreme/build "$1" "${3-}"
+    else
+        printf '%-20s %-52s FAIL %s\n' extreme/build "$1" "${3-}"
+        failed=1
+    fi
+}
+
+# ---- Blobs ----
+
+# scene NAME: what of it is left of standard input, as build/extreme/NAME.qlb
+scene() {
+    cat >"$work/$1.scene" &&
+        "$build/qlux-scene" "$work/$1.scene" -o "$work/$1.qlb" --quiet \
+            >"$work/$1.log" 2>&1
+}
+
+le32() { # number: as four bytes, the lowest first
+    # shellcheck disable=SC2059  # the format is made here
+    printf "$(printf '\\%03o\\%03o\\%03o\\%03o' $(($1 & 255)) \
+        $(($1 >> 8 & 255)) $(($1 >> 16 & 255)) $(($1 >> 24 & 255)))"
+}
+
+: >"$work/blobs.bin"
+blobs=0
+for name in cornell glossy sky lens smooth strategies; do
+    "$build/qlux-scene" "tests/scenes/$name.scene" -o "$work/$name.qlb" \
+        --quiet --node-bits $((8 + blobs % 2 * 8)) 2>"$work/$name.log" ||
+        { say "case_55_scene_${name}_compiles" 1; continue; }
+    le32 "$(wc -c <"$work/$name.qlb")" >>"$work/blobs.bin"
+    cat "$work/$name.qlb" >>"$work/blobs.bin"
+    blobs=$((blobs + 1))
+done
+le32 0 >>"$work/blobs.bin"
+
+# ---- Case 55: one number everywhere ----
+
+sources=$(ls firmware/*/*.c)
+
+# digest NAME PRECISION RUNNER COMPILER FLAGS FILE: the number, or nothing
+digest() {
+    # shellcheck disable=SC2086  # lists of words
+    $4 -std=gnu99 $5 -DQL_CFG_PRECISION="$2" -Ifirmware \
+        tests/extreme/digest_main.c $sources $lib -o "$work/$1" \
+        >"$work/$1.log" 2>&1 && $3 "$work/$1" $6 2>>"$work/$1.log"
+}
+
+# matches NAME RUNNER COMPILER FLAGS FILE: both precisions give what the first
+# of all gave
+matches() {
+    numbers="$(digest "$1-0" 0 "$2" "$3" "$4" "$5") $(
+        digest "$1-1" 1 "$2" "$3" "$4" "$5")"
+    wanted=${wanted:-$numbers}
+    case $numbers in
+    *' ' | ' '* | *00000000*) wrong="no number: see $work/$1-?.log" ;;
+    "$wanted") wrong= ;;
+    *) wrong="$numbers, not $wanted" ;;
+    esac
+    [ -z "$wrong" ]
+    say "case_55_$1_gives_the_same_bits" $? "${wrong:-$numbers}"
+}
+
+wanted=
+lib=
+bare='-nostdlib -static -ffreestanding -fomit-frame-pointer'
+bare="$bare -DDIGEST_BARE=\"$work/blobs.bin\""
+matches gcc_O0 '' gcc -O0 "$work/blobs.bin"
+matches gcc_O2 '' gcc -O2 "$work/blobs.bin"
+matches clang_Os '' clang -Os "$work/blobs.bin"
+matches gcc_32_bit '' gcc \
+    "-m32 -Os -isystem /usr/include/$(gcc -print-multiarch)" "$work/blobs.bin"
+matches powerpc_big_endian qemu-ppc powerpc-linux-gnu-gcc-12 '-static -O2' \
+    "$work/blobs.bin"
+lib=-lgcc
+matches armv6m_without_wide_multiplication qemu-arm arm-none-eabi-gcc \
+    "-mcpu=cortex-m0 -mthumb -Os $bare" ''
+matches armv7m qemu-arm arm-none-eabi-gcc "-mcpu=cortex-m3 -mthumb -O2 $bare" ''
+matches riscv32 qemu-riscv32 riscv64-unknown-elf-gcc \
+    "-march=rv32imc -mabi=ilp32 -O2 -Wl,--no-relax $bare" ''
+# a byte of one blob
+printf '\001' | dd of="$work/blobs.bin" bs=1 seek=200 conv=notrunc 2>/dev/null
+[ "$("$work/gcc_O2-1" "$work/blobs.bin")" != "${wanted#* }" ]
+say case_55_a_changed_blob_is_noticed $?
+
+# ---- Case 6: faces without area ----
+
+cat >"$work/flat.obj" <<'END'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 2 0 0
+v 0.5 0 0
+mtllib flat.mtl
+usemtl lamp
+f 1 1 1
+f 1 2 2
+f 1 2 4
+f 1 5 2
+usemtl white
+f 1 2 3
+END
+printf 'newmtl lamp\nKe 1 1 1\nnewmtl white\nKd 1 1 1\n' >"$work/flat.mtl"
+scene flat <<'END'
+mesh flat.obj
+camera eye 0.3 0.3 2 look 0.3 0.3 0 up 0 1 0 fov 40
+image 8 8
+END
+say case_06_faces_without_area_compile $?
+grep -q 'dropped 4 degenerate faces' "$work/flat.log"
+say case_06_faces_without_area_are_dropped_and_counted $?
+[ "$("$build/qlux-scene" --info "$work/flat.qlb" |
+    sed -n 's/^lights: //p')" = 0 ]
+say case_06_faces_without_area_are_no_lights $?
+
+# ---- Case 28: what qlux-sim counts ----
+
+# A lamp on the floor, but for a grid unit; and one where it belongs.
+lamp() { # height
+    cat <<END
+v 0 0 0
+v 0 0 1
+v 1 0 1
+v 1 0 0
+v 0.1 $1 0.5
+v 0.9 $1 0.5
+v 0.9 $1 0.5012
+v 0.1 $1 0.5012
+mtllib lamp.mtl
+usemtl white
+f 1 2 3 4
+usemtl lamp
+f 5 6 7 8
+END
+}
+printf 'newmtl white\nKd 1 1 1\nnewmtl lamp\nKe 0.99 0.99 0.99\n' \
+    >"$work/lamp.mtl"
+for height in 0.00004 0.5; do
+    lamp $height >"$work/lamp.obj"
+    scene "lamp$height" <<'END'
+mesh lamp.obj
+camera eye 0.5 0.0005 0.52 look 0.5 0 0.5006 up 0 1 0 fov 0.01
+image 4 4
+END
+done
+
+saturated() { # scene, threads
+    "$build/qlux-sim" "$work/lamp$1.qlb" -o "$work/lamp.pfm" --size 4x4 \
+        --spp 65536 --bounces 0 --sampler random --threads "$2" --stats \
+        --quiet | sed -n 's/^saturated: //p'
+}
+low=$(saturated 0.00004 1)
+many=$(saturated 0.00004 3)
+high=$(saturated 0.5 1)
+[ "${low:-0}" -gt 0 ] && [ "$low" = "$many" ]
+say case_28_stats_count_what_is_cut_by_any_number_of_threads $? \
+    "$low of 3145728"
+[ "$high" = 0 ]
+say case_28_stats_count_nothing_where_nothing_is_cut $?
+
+# ---- Case 50: nothing to see ----
+
+: >"$work/none.obj"
+scene none <<'END'
+mesh none.obj
+camera eye 0 0 3 look 0 0 0 up 0 1 0 fov 40
+image 1 1
+END
+say case_50_an_empty_mesh_compiles $?
+"$build/qlux-sim" "$work/none.qlb" -o "$work/none.pfm" --spp 1 --quiet &&
+    [ "$(tail -c 12 "$work/none.pfm" | tr -d '\000' | wc -c)" -eq 0 ]
+say case_50_an_empty_scene_is_one_black_pixel $?
+"$build/qlux-sim" "$work/none.qlb" -o "$work/none.pfm" --spp 0 --quiet \
+    2>"$work/none.log"
+[ $? -eq 1 ]
+say case_50_no_samples_are_refused $?
+
+exit $failed
