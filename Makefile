@@ -23,13 +23,14 @@ HOST := -std=c99 -pedantic $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L \
 
 core_src := $(wildcard firmware/*/*.c)
 core_hdr := $(wildcard firmware/*.h firmware/*/*.h hal/*.h)
-host_hdr := $(core_hdr) $(wildcard tools/*.h tools/scene/*.h sim/*.h)
+host_hdr := $(core_hdr) $(wildcard tools/*.h tools/*/*.h \
+    tools/warp/figure/*.h sim/*.h)
 fine := $(core_src:%.c=build/fine/%.o)
 draft := $(core_src:%.c=build/draft/%.o)
 io := $(addprefix build/host/tools/,cli.o image.o png.o deflate.o sums.o \
     develop.o)
 
-programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff recv)
+programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff sheet recv warp ref)
 
 all: $(programs) build/$(SCENE).ppm ## Build everything for this PC, render the Cornell box
 
@@ -59,17 +60,29 @@ build/qlux-lut: build/host/tools/lut_main.o build/host/tools/cli.o
 	$(link)
 
 build/qlux-scene: $(patsubst %.c,build/host/%.o,$(wildcard tools/scene/*.c)) \
-    build/host/tools/cli.o $(fine)
+    $(io) $(fine)
 	$(link)
 
 build/qlux-merge: build/host/tools/merge_main.o $(io) $(fine)
 	$(link)
 
-build/qlux-diff: build/host/tools/diff_main.o $(io) $(fine)
+build/qlux-diff: $(addprefix build/host/tools/,diff_main.o diff_picture.o \
+    font.o) $(io) $(fine)
+	$(link)
+
+build/qlux-sheet: $(addprefix build/host/tools/,sheet_main.o font.o) $(io) $(fine)
 	$(link)
 
 build/qlux-recv: build/host/tools/recv_main.o $(io) $(fine)
 	$(link)
+
+build/qlux-warp: $(patsubst %.c,build/host/%.o,$(wildcard tools/warp/*.c \
+    tools/warp/figure/*.c) tools/scene/build_table.c) $(io) $(fine)
+	$(link)
+
+build/qlux-ref: $(patsubst %.c,build/host/%.o,$(wildcard tools/ref/*.c) \
+    sim/sim_options.c) $(io) $(fine)
+	$(link) -lpthread
 
 sim := sim/sim_main.o sim/sim_options.o sim/sim_render.o
 
@@ -82,7 +95,7 @@ build/qlux-sim-draft: $(sim:%=build/draft/%) $(io) $(draft)
 # Scenes and pictures.
 
 build/$(SCENE).qlb build/$(SCENE).h &: $(scene_file) build/qlux-scene \
-    $(wildcard $(dir $(scene_file))*.obj $(dir $(scene_file))*.mtl)
+    $(foreach e,obj mtl pfm txt,$(wildcard $(dir $(scene_file))*.$(e)))
 	build/qlux-scene $< -o build/$(SCENE).qlb \
 	    --features build/$(SCENE).h $(SCENE_OPTIONS)
 
@@ -97,10 +110,15 @@ run-pc: build/qlux-sim build/$(SCENE).qlb
 luts: build/qlux-lut ## Regenerate the core's tables
 	build/qlux-lut -o firmware/math/ql_lut_data.c
 
+warp-plots: build/qlux-warp ## Draw the warps of tools/README.md: build/warp-*.svg
+	for m in 1 2 8 16; do build/qlux-warp plot cosine-power -m $$m \
+	    -o build/warp-cosine-power-$$m.svg || exit; done
+	build/qlux-warp plot naive-hemisphere -o build/warp-naive-hemisphere.svg
+
 clean: ## Remove build/
 	rm -rf build
 
 include hal/boards.mk
 include tests/tests.mk tests/bench/bench.mk
 
-.PHONY: all tools help run run-pc luts clean
+.PHONY: all tools help run run-pc luts warp-plots clean
