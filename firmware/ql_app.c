@@ -3,25 +3,30 @@
 
 #include "ql_app.h"
 
+#if QL_CFG_PANEL
 /* Where the picture lies on the panel, in one dimension: the picture's pixel
  * crop is the first one shown, at the panel's pixel pad. One of them is 0. */
 typedef struct {
     uint16_t crop;
     uint16_t pad;
 } place_t;
+#endif
 
 /* What a run carries from line to line. */
 typedef struct {
     ql_render_t render;
-    ql_output_t outputs[2]; /* the stream's, and the panel's if it has one */
+    ql_output_t outputs[1 + QL_CFG_PANEL]; /* the stream's; the panel's */
     uint8_t output_count;
     uint8_t *frame;
+    uint32_t ticks;
+#if QL_CFG_PANEL
     const uint8_t *panel_line; /* what the panel shows of outputs[1] */
     ql_hal_display_t panel;
     place_t x, y;
-    uint32_t ticks;
+#endif
 } run_t;
 
+#if QL_CFG_PANEL
 /* Centre. Even numbers keep pairs of pixels together where two share a byte. */
 static place_t centre(uint16_t picture, uint16_t panel)
 {
@@ -35,8 +40,8 @@ static place_t centre(uint16_t picture, uint16_t panel)
     return place;
 }
 
-/* Divide the working memory, and blank the panel. */
-static ql_status_t set_up(run_t *run, const ql_app_t *app)
+/* Give the panel its part of the working memory, and blank it. */
+static ql_status_t panel_begin(run_t *run, const ql_app_t *app)
 {
     const uint16_t width = run->render.settings.width;
     const size_t frame_bytes = QL_APP_FRAME_BYTES(width);
@@ -47,11 +52,11 @@ static ql_status_t set_up(run_t *run, const ql_app_t *app)
             QL_WORK_BYTES(width, run->panel.width, run->panel.format)) {
         return QL_ERR_SETTINGS;
     }
-    run->outputs[0].format = QL_FORMAT_RGB888;
-    run->outputs[0].pixels = run->frame + QL_STREAM_PIXELS;
-    run->output_count = 1;
     if (run->panel.width == 0) {
         return QL_OK;
+    }
+    if ((QL_CFG_FORMATS >> run->panel.format & 1) == 0) {
+        return QL_ERR_DISPLAY;
     }
     run->x = centre(width, run->panel.width);
     run->y = centre(run->render.settings.height, run->panel.height);
@@ -88,20 +93,42 @@ static ql_status_t show(const run_t *run, uint16_t y, uint16_t count)
     }
     return status;
 }
+#endif
+
+/* Divide the working memory. */
+static ql_status_t set_up(run_t *run, const ql_app_t *app)
+{
+    run->outputs[0].format = QL_FORMAT_RGB888;
+    run->outputs[0].pixels = run->frame + QL_STREAM_PIXELS;
+    run->output_count = 1;
+#if QL_CFG_PANEL
+    return panel_begin(run, app);
+#else
+    return app->work_bytes < QL_APP_FRAME_BYTES(run->render.settings.width)
+                   ? QL_ERR_SETTINGS
+                   : QL_OK;
+#endif
+}
 
 static ql_status_t render_line(run_t *run, uint16_t y, uint16_t rows)
 {
     const uint16_t bytes = (uint16_t)QL_LINE_BYTES(
             run->render.settings.width, QL_FORMAT_RGB888);
     const uint32_t before = ql_hal_ticks();
+#if QL_CFG_PANEL
     ql_status_t status;
+#endif
 
     ql_render_line(&run->render, y, run->outputs, run->output_count);
     run->ticks += ql_hal_ticks() - before;
+#if QL_CFG_PANEL
     status = show(run, y, rows);
     if (status != QL_OK) {
         return status;
     }
+#else
+    (void)rows;
+#endif
     return ql_hal_serial_write(
             run->frame, ql_stream_line(run->frame, y, bytes));
 }
@@ -135,6 +162,7 @@ static bool is_power_of_two(uint8_t x)
     return x != 0 && (x & (x - 1u)) == 0;
 }
 
+#if QL_CFG_DIAG
 /* Say which feature is missing: a line of text between two frames. */
 static void report_missing(const void *blob)
 {
@@ -152,6 +180,7 @@ static void report_missing(const void *blob)
         (void)(ql_hal_serial_write((const uint8_t *)"\n", 1) == QL_OK);
     }
 }
+#endif
 
 static ql_status_t render_picture(run_t *run, const ql_app_t *app)
 {
@@ -162,9 +191,11 @@ static ql_status_t render_picture(run_t *run, const ql_app_t *app)
 
     ql_hal_scene_blob(&blob, &size);
     status = ql_blob_open(&scene, blob, size);
+#if QL_CFG_DIAG
     if (status == QL_ERR_FEATURE) {
         report_missing(blob);
     }
+#endif
     if (status == QL_OK) {
         status = ql_render_init(&run->render, &scene, &app->settings);
     }

@@ -4,8 +4,12 @@
 # ROULETTE (0 or 1), INTERLACE choose the picture, in the simulator's words;
 # PRECISION is draft or fine. STRATEGIES=1 builds every estimator in, which is
 # the default only if one is asked for. ERROR=E stops a pixel at a relative error
-# of E; only then is the code for it built in. SCENE is a name: the main Makefile
-# makes build/SCENE.qlb and build/SCENE.h of it.
+# of E; only then is the code for it built in. What the choice does not need is
+# not built in: the other sampler, with INDIRECT=none or BOUNCES=0 all that
+# follows the first hit, without a panel its code and formats. SMALL=1 asks for
+# short code before fast code: the gate QL_CFG_SMALL, link-time optimisation
+# (LTO=0 does without) and, unless DIAG=1, no counters. SCENE is a name: the main
+# Makefile makes build/SCENE.qlb and build/SCENE.h of it.
 
 BOARDS := $(notdir $(patsubst %/,%,$(wildcard hal/boards/*/)))
 PRECISION ?= draft
@@ -15,7 +19,10 @@ ifeq ($(filter $(BOARD),$(BOARDS)),)
 $(error BOARD=$(BOARD): use one of $(BOARDS))
 endif
 include hal/boards/$(BOARD)/board.mk
-OPT ?= $(or $(BOARD_OPT),-O2)
+SMALL ?= 0
+LTO ?= $(or $(BOARD_LTO),$(SMALL))
+DIAG ?= $(if $(filter 1,$(SMALL)),0,1)
+OPT ?= $(if $(filter 1,$(SMALL)),-Os,$(or $(BOARD_OPT),-O2))
 SIZE ?= $(BOARD_SIZE)
 SPP ?= $(BOARD_SPP)
 SEED ?= 0
@@ -38,21 +45,39 @@ STRATEGIES ?= $(if $(filter-out none area,$(DIRECT))$(filter \
 # as the simulator rounds it
 board_error = $(if $(ERROR),-DQL_APP_ERROR_Q16=$(shell awk \
     'BEGIN { printf "%d", $(ERROR) * 65536 + 0.5 }'))
+INDIRECT_BUILT := $(if $(filter none,$(INDIRECT))$(filter \
+    0,$(BOUNCES)),0,1)
+# 1 << ql_format_t, of the panel, and of the stream
+bit_rgb565-le := 2
+bit_rgb565-be := 4
+bit_gray8 := 8
+bit_gray4 := 16
+board_formats := (1$(BOARD_PANEL:%=+$(bit_$(BOARD_PANEL))))
 # mis -> QL_PREFIX_MIS, solid-angle -> QL_PREFIX_SOLID_ANGLE
 board_word = QL_$(1)_$(shell echo $(2) | tr a-z- A-Z_)
 
 # EMULATED=1 leaves the emulator when done; a real board would hang on that.
 EMULATED ?= 0
 BOARD_MAIN ?= hal/ql_main.c
-board_name := build/$(BOARD)/$(SCENE)$(if \
+board_name := build/$(BOARD)/$(SCENE)$(if $(filter 1,$(SMALL)),-small)$(if \
+    $(filter 0,$(INDIRECT_BUILT)),-direct)$(if \
     $(filter 1,$(EMULATED)),-emulated)$(VARIANT)
+board_rows := $(BOARD) $(SCENE)$(if $(filter 1,$(SMALL)), small)$(if \
+    $(filter 0,$(INDIRECT_BUILT)), direct)
 board_src := $(or $(FIRMWARE_SRC),$(wildcard firmware/*.c firmware/*/*.c)) \
     $(filter-out hal/ql_main.c,$(wildcard hal/*.c)) $(BOARD_MAIN) \
     hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
 board_obj := $(addprefix $(board_name)/,$(addsuffix .o,$(board_src)))
-board_ci := $(patsubst %.c.o,%.c.ci,$(filter %.c.o,$(board_obj)))
+# Whole-program optimisation; three passes of it that make code longer are off.
+# Calls that only the compiler makes are not seen in time, so what they call is
+# compiled apart.
+board_lto := $(if $(filter 1,$(LTO)),-flto -flto-partition=one \
+    -fno-move-loop-invariants -fno-tree-dominator-opts -fno-tree-loop-im)
+board_apart := $(board_name)/hal/ql_mem.c.o
+board_ci := $(patsubst %.o,%.ci,$(if $(board_lto),$(board_apart) \
+    $(board_name).elf.ltrans0.ltrans.o,$(filter %.c.o,$(board_obj))))
 
-board_cflags := $(BOARD_CPU) $(OPT) -std=c99 -pedantic -ffreestanding \
+board_cflags := $(BOARD_CPU) $(OPT) $(board_lto) -std=c99 -pedantic -ffreestanding \
     $(WARN) -Werror -ffunction-sections -fdata-sections -fno-common -g \
     -fno-asynchronous-unwind-tables -fcallgraph-info=su \
     -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
@@ -69,6 +94,10 @@ board_cflags := $(BOARD_CPU) $(OPT) -std=c99 -pedantic -ffreestanding \
     -DQL_APP_LIGHT_SAMPLES=$(LIGHT_SAMPLES) -DQL_APP_ROULETTE=$(ROULETTE) \
     -DQL_APP_INTERLACE=$(INTERLACE) -DQL_CFG_STRATEGIES=$(STRATEGIES) \
     -DQL_CFG_ADAPTIVE=$(if $(ERROR),1,0) $(board_error) \
+    -DQL_CFG_INDIRECT=$(INDIRECT_BUILT) -DQL_CFG_SMALL=$(SMALL) \
+    -DQL_CFG_SAMPLERS=$(if $(filter random,$(SAMPLER)),1,2) \
+    -DQL_CFG_PANEL=$(if $(BOARD_PANEL),1,0) \
+    -DQL_CFG_FORMATS='$(board_formats)' -DQL_CFG_DIAG=$(DIAG) \
     $(CFLAGS_BOARD)
 
 firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
@@ -81,7 +110,8 @@ $(board_name)/flags: FORCE
 
 $(board_name)/%.c.o: %.c $(board_name)/flags build/$(SCENE).h
 	@mkdir -p $(@D)
-	$(BOARD_CROSS)gcc $(board_cflags) -MMD -MP -c $< -o $@
+	$(BOARD_CROSS)gcc $(board_cflags) $(if $(filter \
+	    $@,$(board_apart)),-fno-lto) -MMD -MP -c $< -o $@
 
 $(board_name)/%.S.o: %.S $(board_name)/flags build/$(SCENE).qlb
 	@mkdir -p $(@D)
@@ -89,7 +119,8 @@ $(board_name)/%.S.o: %.S $(board_name)/flags build/$(SCENE).qlb
 	    -DQL_BLOB_FILE='"build/$(SCENE).qlb"'
 
 $(board_name).elf: $(board_obj) linker/sections.ld linker/$(BOARD_MCU).ld
-	$(BOARD_CROSS)gcc $(BOARD_CPU) -nostdlib -Wl,--gc-sections -Llinker \
+	$(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) $(board_lto) \
+	    -ffreestanding -g -fcallgraph-info=su) -nostdlib -Wl,--gc-sections -Llinker \
 	    -Wl,-T,$(BOARD_MCU).ld -Wl,--defsym=ql_ld_stack_bytes=$(BOARD_STACK) \
 	    -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments \
 	    $(board_obj) -lgcc -o $@
@@ -111,12 +142,16 @@ build/$(SCENE)-$(BOARD)-sim.ppm: build/$(SCENE).qlb $(board_sim) FORCE
 	$(board_sim) $< -o $@ --quiet $(board_choice)
 
 size-board: $(board_name).elf
-	@$(BOARD_CROSS)size -A $< | awk -v name='$(BOARD) $(SCENE)' \
+	@$(BOARD_CROSS)size -A $< | awk -v name='$(board_rows)' \
 	    '/^\.(text|rodata|data) / { flash += $$2 } \
 	    /^\.(data|bss) / { ram += $$2 } \
 	    END { print name " flash: " flash; print name " ram: " ram }'
 	@stack=$$(tools/stack_report.sh $< $(BOARD_CROSS)objdump \
-	    $(board_ci)) && echo "$(BOARD) $(SCENE) stack: $$stack"
+	    $(board_ci)) && echo "$(board_rows) stack: $$stack"
+
+# By source file, which link-time optimisation would mix.
+size-files: $(board_name).elf
+	@tools/size_report.sh --files $(board_name).map $(board_name)
 
 test-stack: $(board_name).elf build/qlux-recv
 	tests/boards/test_stack.sh $< $$(tools/stack_report.sh $< \
@@ -128,10 +163,16 @@ firmware flash:
 	@echo "$@: needs BOARD=, one of $(BOARDS)" >&2; exit 1
 endif
 
-.PHONY: firmware flash run-board run-emulated size size-board test-boards \
+.PHONY: firmware flash run-board run-emulated size size-board size-files \
+    size-modules test-boards \
     test-stack test-template FORCE
 run-board: ## Render SCENE on an emulated BOARD
 	@$(MAKE) --no-print-directory run-emulated EMULATED=1
+
+size-modules: ## Flash of SCENE on BOARD by source file
+	@$(MAKE) -s --no-print-directory size-files LTO=0 \
+	    VARIANT=-files
+	@$(MAKE) -s --no-print-directory size-board
 
 size: ## Flash, RAM and stack of SCENE on BOARD, or on every board
 	@for board in $(or $(BOARD),$(BOARDS)); do \

@@ -52,6 +52,12 @@
 #define QL_APP_INTERLACE 1
 #endif
 
+/* BOARD_PANEL of board.mk says so too. */
+QL_STATIC_ASSERT(
+        QL_PORT_PANEL_WIDTH == 0 ||
+                (QL_CFG_PANEL && (QL_CFG_FORMATS >> QL_PORT_PANEL_FORMAT & 1)),
+        ql_build_has_the_panels_format);
+
 int main(void)
 {
     static uint8_t work[QL_WORK_BYTES(

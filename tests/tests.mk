@@ -16,8 +16,10 @@ test_hdr := $(wildcard tests/*.h tests/*/*.h tools/*.h tools/scene/*.h \
 support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
     tests/known/double_pt.c tests/bench/bench_rays.c tests/bench/float_pt.c \
     firmware/*.c) $(addprefix tools/,cli.c image.c png.c deflate.c sums.c \
-    develop.c) $(filter-out %_main.c,$(wildcard tools/scene/*.c \
-    tools/ref/*.c))
+    develop.c) $(filter-out %_main.c,$(wildcard tools/scene/*.c))
+# It renders every feature, so it needs a core that has every one.
+reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c))
+support_of = $(support) $(if $(filter fine draft,$(1:-san=)),$(reference))
 
 # Under configuration $(1): the core, what tests share, and every test.
 define config_rules
@@ -29,7 +31,8 @@ build/test/$(1)/%.o: %.c $(core_hdr) $(test_hdr)
 build/test/$(1)/core.a: $(core_src:%.c=build/test/$(1)/%.o)
 	rm -f $$@ && ar rcs $$@ $$^
 
-build/test/$(1)/support.a: $(support:%.c=build/test/$(1)/%.o)
+build/test/$(1)/support.a: $(patsubst %.c,build/test/$(1)/%.o,$(call \
+    support_of,$(1)))
 	rm -f $$@ && ar rcs $$@ $$^
 
 build/test/$(1)/%: build/test/$(1)/tests/%.o build/test/$(1)/support.a \
@@ -55,8 +58,9 @@ jobs_quick := $(call in,fine,$(unit) $(tool) $(extreme)) \
     $(call in,draft,$(unit) $(extreme))
 jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool) \
     $(extreme)))
+# unit_NAME is those of a configuration that not all can run in.
 jobs_configs := $(foreach c,$(filter-out fine draft,$(configs)),$(call \
-    in,$(c),$(unit)))
+    in,$(c),$(or $(unit_$(c)),$(unit))))
 jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/test_scene.sh; \

@@ -4,16 +4,19 @@
 
 usage() {
     cat <<'END'
-usage: tools/size_report.sh MAP OBJECT-DIR
-Print a row for each folder of sources (and "scene" for the blob, "libgcc" for
-the compiler's own functions): bytes of code, constants, and RAM.
+usage: tools/size_report.sh [--files] MAP OBJECT-DIR
+Print a row for each folder of sources, with --files for each source (and
+"scene" for the blob, "libgcc" for the compiler's own functions): bytes of code,
+constants, and RAM. Not of a build with link-time optimisation, which mixes them.
 
 Example: tools/size_report.sh build/microbit/cornell.map build/microbit/cornell
 END
 }
 
+files=0
 case ${1-} in
 --help) usage; exit 0 ;;
+--files) files=1; shift ;;
 esac
 if [ $# -ne 2 ]; then
     usage >&2
@@ -24,7 +27,7 @@ if [ ! -r "$1" ]; then
     exit 3
 fi
 
-awk -v dir="$2/" '
+awk -v dir="$2/" -v files="$files" '
 function number(hex,    i, n) {
     n = 0
     for (i = 3; i <= length(hex); i++) {
@@ -46,7 +49,7 @@ object == "" { next }
     module = object
     if (index(module, dir) == 1) {
         module = substr(module, length(dir) + 1)
-        sub(/\/[^\/]*$/, "", module)
+        sub(files ? "[.]o$" : "/[^/]*$", "", module)
     } else {
         module = "libgcc"
     }

@@ -48,9 +48,11 @@ function fail(text) {
     failed = 1
     exit 2
 }
-# The n-th quoted string of a line.
+# The n-th quoted string of a line. Link-time optimisation makes every function
+# one of its own file, by a name that is unique: that of the disassembly.
 function quoted(n,    part) {
     split($0, part, "\"")
+    sub(/^[^"]*\.ltrans[0-9]+\.o:/, "", part[2 * n])
     return part[2 * n]
 }
 # Bytes that a call of name needs. deepest[name] is where its callees need most.

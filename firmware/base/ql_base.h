@@ -52,6 +52,15 @@ const char *ql_status_text(ql_status_t status);
 #define QL_LIKELY(x) (x)
 #endif
 
+/* Inline for speed; a function of its own where QL_CFG_SMALL asks for that. */
+#if QL_CFG_SMALL && defined(__GNUC__)
+#define QL_FAST_INLINE static __attribute__((noinline, unused))
+#elif QL_CFG_SMALL
+#define QL_FAST_INLINE static inline
+#else
+#define QL_FAST_INLINE QL_INLINE
+#endif
+
 /* A claim about our own code. A debug build reports it and stops; a release
  * build compiles it away. Never used for bad input. */
 #if QL_CFG_ASSERT
@@ -125,13 +134,22 @@ QL_INLINE uint64_t ql_abs64(int64_t x)
     return x < 0 ? 0u - (uint64_t)x : (uint64_t)x;
 }
 
-/* Leading zero bits; 32 (64) for 0. */
-QL_INLINE unsigned ql_clz32(uint32_t x)
+#if defined(__GNUC__) && !(QL_CFG_SMALL && defined(__ARM_ARCH_6M__))
+#define QL_CLZ_BUILTIN 1
+#define QL_CLZ_INLINE  QL_INLINE
+#else
+#define QL_CLZ_BUILTIN 0
+#define QL_CLZ_INLINE  QL_FAST_INLINE
+#endif
+
+/* Leading zero bits; 32 (64) for 0. Where the CPU cannot count them the
+ * compiler's own function is longer than a loop. */
+QL_CLZ_INLINE unsigned ql_clz32(uint32_t x)
 {
     if (x == 0) {
         return 32;
     }
-#if defined(__GNUC__)
+#if QL_CLZ_BUILTIN
     return (unsigned)__builtin_clzl((unsigned long)x) -
            8u * (unsigned)(sizeof(unsigned long) - 4);
 #else

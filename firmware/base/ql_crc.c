@@ -3,6 +3,7 @@
 
 #include "base/ql_crc.h"
 
+#if !QL_CFG_SMALL
 /* Entry n is n shifted through four steps of the reflected polynomial
  * 0xEDB88320; tests/unit/test_crc.c derives them again. */
 static const uint32_t crc_nibble[16] = {
@@ -23,6 +24,7 @@ static const uint32_t crc_nibble[16] = {
         0xa00ae278u,
         0xbdbdf21cu,
 };
+#endif
 
 uint32_t ql_crc32(uint32_t crc, const void *data, size_t size)
 {
@@ -31,8 +33,14 @@ uint32_t ql_crc32(uint32_t crc, const void *data, size_t size)
     crc = ~crc;
     for (size_t i = 0; i < size; i++) {
         crc ^= bytes[i];
+#if QL_CFG_SMALL
+        for (unsigned k = 0; k < 8; k++) {
+            crc = crc & 1u ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+        }
+#else
         crc = crc >> 4 ^ crc_nibble[crc & 15u];
         crc = crc >> 4 ^ crc_nibble[crc & 15u];
+#endif
     }
     return ~crc;
 }

@@ -1,22 +1,36 @@
-/* ql_fx.c - long division by a 16-bit number */
+/* ql_fx.c - long multiplication and division by a 16-bit number */
 /* SPDX-License-Identifier: MIT */
 
 #include "math/ql_fx.h"
 
+#if QL_CFG_SMALL
+int64_t ql_mul_s64_u16(int64_t a, uint16_t b)
+{
+    uint64_t sum = 0;
+
+    for (uint64_t part = (uint64_t)a; b != 0; part += part, b >>= 1) {
+        if (b & 1u) {
+            sum += part;
+        }
+    }
+    return ql_i64(sum);
+}
+#endif
+
 int64_t ql_div_s64_u16(int64_t a, uint16_t b)
 {
-    const uint64_t size = ql_abs64(a);
-    uint64_t quotient = 0;
+    uint64_t quotient = ql_abs64(a);
     uint32_t rest = 0;
 
-    /* School division with 16-bit digits: rest < b, so a digit fits. */
-    for (unsigned shift = 64; shift > 0;) {
-        uint32_t part;
-
-        shift -= 16;
-        part = rest << 16 | (uint32_t)(size >> shift & 0xffffu);
-        quotient = quotient << 16 | part / b;
-        rest = part % b;
+    /* School division, bit by bit: digits of the quotient come in where those
+     * of the dividend go out. rest < b, so twice that and a bit fits. */
+    for (unsigned i = 0; i < 64; i++) {
+        rest = rest << 1 | (uint32_t)(quotient >> 63);
+        quotient <<= 1;
+        if (rest >= b) {
+            rest -= b;
+            quotient |= 1u;
+        }
     }
     return a < 0 ? ql_i64(0u - quotient) : ql_i64(quotient);
 }

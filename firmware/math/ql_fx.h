@@ -48,6 +48,8 @@ typedef uint32_t ql_turn32_t;
 /* Put together, a product is 17 instructions: too many to insist on. */
 #if QL_PORT_WIDE_MUL
 #define QL_FX_INLINE QL_INLINE
+#elif QL_CFG_SMALL
+#define QL_FX_INLINE QL_FAST_INLINE
 #else
 #define QL_FX_INLINE static inline
 #endif
@@ -85,6 +87,16 @@ QL_INLINE int32_t ql_mul_s32_u16(int32_t a, uint32_t b)
     const uint32_t low = ((uint32_t)a & 0xffffu) * b;
 
     return ql_asr32(a, 16) * (int32_t)b + (int32_t)(low >> 16);
+}
+
+/* The whole product of two 32-bit numbers. */
+QL_INLINE uint64_t ql_product_u32(uint32_t a, uint32_t b)
+{
+#if QL_PORT_WIDE_MUL
+    return (uint64_t)a * b;
+#else
+    return (uint64_t)ql_mulhi_u32(a, b) << 32 | (uint32_t)(a * b);
+#endif
 }
 
 /* Product of two numbers in [0, 1], rounded half up; exact for 0 and 1. */
@@ -126,13 +138,31 @@ QL_INLINE int64_t ql_dot_s16_s32(
 #endif
 }
 
+/* Multiply a 64-bit number by a 16-bit one.
+ *
+ *   a       -  any
+ *   b       -  0..65535
+ *   return  a b modulo 2^64, as two's complement
+ *
+ * Exact. Cost: with QL_CFG_SMALL up to 16 steps of a loop, and not the
+ * compiler's own function.
+ */
+#if QL_CFG_SMALL
+int64_t ql_mul_s64_u16(int64_t a, uint16_t b);
+#else
+QL_INLINE int64_t ql_mul_s64_u16(int64_t a, uint16_t b)
+{
+    return ql_i64((uint64_t)a * b);
+}
+#endif
+
 /* Divide a 64-bit number by a 16-bit one, without a 64-bit division.
  *
  *   a       -  any
  *   b       -  1..65535
  *   return  a / b, rounded towards zero
  *
- * Exact. Cost: four 32-bit divisions; for setting up, not for rays.
+ * Exact. Cost: 64 steps of a loop; for setting up, not for rays.
  */
 int64_t ql_div_s64_u16(int64_t a, uint16_t b);
 

@@ -3,11 +3,34 @@
 
 #include "math/ql_real.h"
 
+/* Entry i of ql_lut_recip. */
+static uint32_t recip_entry(uint32_t i)
+{
+#if QL_CFG_SMALL
+    /* 2^25 / (2 i + 257), half up, as tools/lut_main.c has it: 18 bits of a
+     * division, of which the first 9 are 0 */
+    const uint32_t m = (2 * i + 257u) << 17;
+    uint32_t rest = (uint32_t)1 << 25, quotient = 0;
+
+    for (unsigned k = 0; k < 18; k++) {
+        quotient <<= 1;
+        if (rest >= m) {
+            rest -= m;
+            quotient |= 1u;
+        }
+        rest <<= 1;
+    }
+    return (quotient + 1) >> 1;
+#else
+    return ql_lut_recip[i];
+#endif
+}
+
 uint32_t ql_recip_m(uint32_t m)
 {
     /* r = 2^63 / m in u0.32. Cell width 2^-8: relative error of the
      * table's value at the cell's middle <= 2^-8, squared by each step. */
-    uint32_t r = (uint32_t)ql_lut_recip[(m >> 24) - QL_RECIP_CELLS] << 16;
+    uint32_t r = recip_entry((m >> 24) - QL_RECIP_CELLS) << 16;
     uint32_t x;
 
     QL_ASSERT(m >= 0x80000000u);

@@ -17,9 +17,49 @@ typedef struct {
     int16_t e;
 } ql_real_t;
 
+#if QL_CFG_SMALL
+/* With QL_CFG_SMALL each of these is a function, which takes and returns a real
+ * as two registers: its mantissa, and its exponent 32 bits further up. */
+QL_INLINE uint64_t ql_real_pack(uint32_t m, int16_t e)
+{
+    return (uint64_t)(uint16_t)e << 32 | m;
+}
+
+QL_INLINE ql_real_t ql_real_unpack(uint64_t words)
+{
+    ql_real_t r;
+
+    r.m = (uint32_t)words;
+    r.e = ql_i16((uint16_t)(words >> 32));
+    return r;
+}
+
+QL_FAST_INLINE uint64_t ql_real_from_u64_packed(uint64_t n)
+{
+    const unsigned shift = ql_clz64(n);
+
+    return shift < 64 ? ql_real_pack((uint32_t)(n << shift >> 32),
+                                (int16_t)(32 - (int16_t)shift))
+                      : 0;
+}
+
+QL_FAST_INLINE uint64_t ql_real_mul_packed(
+        uint32_t am, int16_t ae, uint32_t bm, int16_t be)
+{
+    const uint32_t high = ql_mulhi_u32(am, bm); /* 0 or >= 2^30 */
+    const int16_t e = (int16_t)(ae + be + 32);
+
+    return high < 0x80000000u ? ql_real_pack(high << 1, (int16_t)(e - 1))
+                              : ql_real_pack(high, e);
+}
+#endif
+
 /* The number n, cut to its 32 highest bits: relative error in (-2^-31, 0]. */
 QL_INLINE ql_real_t ql_real_from_u64(uint64_t n)
 {
+#if QL_CFG_SMALL
+    return ql_real_unpack(ql_real_from_u64_packed(n));
+#else
     const unsigned shift = ql_clz64(n);
     ql_real_t r = {0, 0};
 
@@ -28,11 +68,15 @@ QL_INLINE ql_real_t ql_real_from_u64(uint64_t n)
         r.e = (int16_t)(32 - (int16_t)shift);
     }
     return r;
+#endif
 }
 
 /* a b, relative error in (-2^-30, 0]. */
 QL_INLINE ql_real_t ql_real_mul(ql_real_t a, ql_real_t b)
 {
+#if QL_CFG_SMALL
+    return ql_real_unpack(ql_real_mul_packed(a.m, a.e, b.m, b.e));
+#else
     const uint32_t high = ql_mulhi_u32(a.m, b.m); /* 0 or >= 2^30 */
     ql_real_t r;
 
@@ -43,6 +87,7 @@ QL_INLINE ql_real_t ql_real_mul(ql_real_t a, ql_real_t b)
         r.e = (int16_t)(r.e - 1);
     }
     return r;
+#endif
 }
 
 /* Reciprocal of a mantissa m in [2^31, 2^32).
@@ -68,9 +113,20 @@ uint32_t ql_recip_m(uint32_t m);
  */
 uint32_t ql_rsqrt_m(uint32_t m);
 
+#if QL_CFG_SMALL
+QL_FAST_INLINE uint64_t ql_real_recip_packed(uint32_t m, int16_t e)
+{
+    /* 2^63 / m */
+    return m != 0 ? ql_real_pack(ql_recip_m(m), (int16_t)(-63 - e)) : 0;
+}
+#endif
+
 /* 1 / a; 0 for 0. */
 QL_INLINE ql_real_t ql_real_recip(ql_real_t a)
 {
+#if QL_CFG_SMALL
+    return ql_real_unpack(ql_real_recip_packed(a.m, a.e));
+#else
     ql_real_t r = {0, 0};
 
     if (a.m != 0) {
@@ -78,6 +134,7 @@ QL_INLINE ql_real_t ql_real_recip(ql_real_t a)
         r.e = (int16_t)(-63 - a.e);
     }
     return r;
+#endif
 }
 
 /* The midpoint (2u + 1) / 2^33 of u's interval; exact for u below 2^31, cut to

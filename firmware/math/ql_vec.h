@@ -18,12 +18,21 @@ QL_INLINE ql_vec3_t ql_vec_sub(ql_vec3_t a, ql_vec3_t b)
     return r;
 }
 
-/* a x b; components up to 32768 and 32767: |result| <= 2 32767 32768 < 2^31. */
+/* a x b; components up to 32768 and 32767: |result| <= 2 32767 32768 < 2^31.
+ * The function takes its vectors where they lie, as calls want them. */
+QL_FAST_INLINE void ql_vec_cross_to(
+        ql_vec3_t *r, const ql_vec3_t *a, const ql_vec3_t *b)
+{
+    r->x = a->y * b->z - a->z * b->y;
+    r->y = a->z * b->x - a->x * b->z;
+    r->z = a->x * b->y - a->y * b->x;
+}
+
 QL_INLINE ql_vec3_t ql_vec_cross(ql_vec3_t a, ql_vec3_t b)
 {
-    const ql_vec3_t r = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
-            a.x * b.y - a.y * b.x};
+    ql_vec3_t r;
 
+    ql_vec_cross_to(&r, &a, &b);
     return r;
 }
 
@@ -35,13 +44,18 @@ QL_INLINE int64_t ql_vec_dot(ql_vec3_t a, ql_vec3_t b)
 
 /* a . n for positions' differences a and an exact normal n (|n| < 2^31). In
  * draft a has 16 bits, so CPUs without wide multiplication take halves. */
-QL_INLINE int64_t ql_vec_dot_n(ql_vec3_t a, ql_vec3_t n)
+QL_FAST_INLINE int64_t ql_vec_dot_n_of(const ql_vec3_t *a, const ql_vec3_t *n)
 {
 #if QL_POS_BITS == 0
-    return ql_dot_s16_s32(a.x, a.y, a.z, n.x, n.y, n.z);
+    return ql_dot_s16_s32(a->x, a->y, a->z, n->x, n->y, n->z);
 #else
-    return ql_vec_dot(a, n); /* 24 + 31 + 2 bits */
+    return ql_vec_dot(*a, *n); /* 24 + 31 + 2 bits */
 #endif
+}
+
+QL_INLINE int64_t ql_vec_dot_n(ql_vec3_t a, ql_vec3_t n)
+{
+    return ql_vec_dot_n_of(&a, &n);
 }
 
 /* Unit vector of an exact one.

@@ -3,21 +3,11 @@
 
 #include "render/ql_film.h"
 
-/* The whole product of two 32-bit numbers. */
-QL_INLINE uint64_t product(uint32_t a, uint32_t b)
-{
-#if QL_PORT_WIDE_MUL
-    return (uint64_t)a * b;
-#else
-    return (uint64_t)ql_mulhi_u32(a, b) << 32 | (uint32_t)(a * b);
-#endif
-}
-
 void ql_film_add(
         uint64_t *sum, ql_uq31_t value, ql_real_t scale, ql_diag_t *diag)
 {
     /* value m 2^(e - 31 + 24); the product is below 2^64 - 2^33 */
-    const uint64_t exact = product(value, scale.m);
+    const uint64_t exact = ql_product_u32(value, scale.m);
     const int shift = scale.e - 7;
     uint64_t add = 0;
 

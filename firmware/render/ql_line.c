@@ -14,6 +14,15 @@ static bool is_default(const ql_settings_t *s)
            s->roulette == 0;
 }
 
+/* Does it have the sampler, and the bounces? */
+static bool is_built(const ql_settings_t *s)
+{
+    return ((QL_CFG_SAMPLERS >> s->sampler) & 1) != 0 &&
+           (QL_CFG_INDIRECT || s->bounces == 0 ||
+                   s->indirect == QL_INDIRECT_NONE) &&
+           (QL_CFG_STRATEGIES || is_default(s));
+}
+
 static bool settings_in_range(const ql_settings_t *s)
 {
     return s->width >= 1 && s->width <= QL_IMAGE_MAX && s->height >= 1 &&
@@ -21,7 +30,7 @@ static bool settings_in_range(const ql_settings_t *s)
            s->bounces <= QL_BOUNCES_MAX && s->sampler <= QL_SAMPLER_SOBOL &&
            s->direct <= QL_DIRECT_MIS && s->indirect <= QL_INDIRECT_BRDF &&
            s->lights <= QL_LIGHTS_UNIFORM && s->light_samples >= 1 &&
-           s->roulette <= 1 && (QL_CFG_STRATEGIES || is_default(s));
+           s->roulette <= 1 && is_built(s);
 }
 
 ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,

@@ -29,7 +29,8 @@ typedef struct {
  *   render    -  out: all zero if this fails
  *   scene     -  from ql_blob_open(); must outlive render
  *   settings  -  copied; width or height 0 means the scene's own
- *   return    QL_OK, or QL_ERR_SETTINGS: a field outside its range
+ *   return    QL_OK, or QL_ERR_SETTINGS: a field outside its range, or one
+ *             that needs a part this build lacks (ql_config.h)
  */
 QL_MUST_CHECK ql_status_t ql_render_init(ql_render_t *render,
         const ql_scene_t *scene, const ql_settings_t *settings);

@@ -32,16 +32,18 @@ static ql_indirect_t looks_by(const ql_settings_t *s)
 #endif
 }
 
+#if QL_CFG_LIGHTS
 /* Does it draw points or directions towards emitters? */
 static bool aims(const ql_path_t *path)
 {
     const unsigned direct = path->settings->direct;
 
-    return QL_CFG_LIGHTS && path->scene->light_count > 0 &&
+    return path->scene->light_count > 0 &&
            (direct == QL_DIRECT_AREA ||
                    (QL_CFG_STRATEGIES && (direct == QL_DIRECT_SOLID_ANGLE ||
                                                  direct == QL_DIRECT_MIS)));
 }
+#endif
 
 #if QL_CFG_STRATEGIES
 /* Are two densities one on this surface? */
@@ -203,7 +205,7 @@ static bool go_on(
 {
     const ql_settings_t *s = path->settings;
     const ql_indirect_t look = looks_by(s);
-    ql_indirect_t density = state->bounce < s->bounces
+    ql_indirect_t density = QL_CFG_INDIRECT && state->bounce < s->bounces
                                     ? (ql_indirect_t)s->indirect
                                     : QL_INDIRECT_NONE;
     const bool mirror = ql_bsdf_has_delta(&v->bsdf) &&

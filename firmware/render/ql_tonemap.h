@@ -27,7 +27,7 @@ typedef enum {
 /* Encode one pixel of a line.
  *
  *   pixels    -       out: the line; the GRAY4 neighbour is kept
- *   format    -       any ql_format_t
+ *   format    -       a ql_format_t of QL_CFG_FORMATS
  *   x, y      px      position: picks the 8x8 ordered dither threshold
  *   linear    u16.16  linear RGB after exposure; 1 is display white
  *

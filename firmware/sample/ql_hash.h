@@ -15,7 +15,7 @@
  * Cost: two multiplications.
  * From: the constants "lowbias32" of Wellons' search for hash functions (2018).
  */
-QL_INLINE uint32_t ql_hash32(uint32_t x)
+QL_FAST_INLINE uint32_t ql_hash32(uint32_t x)
 {
     x = (x ^ x >> 16) * 0x7feb352du;
     x = (x ^ x >> 15) * 0x846ca68bu;

@@ -8,6 +8,11 @@
 
 #define GOLDEN 0x9e3779b9u /* 2^32 / golden ratio: spreads small integers */
 
+static bool is_sobol(const ql_sampler_t *sampler)
+{
+    return QL_CFG_SAMPLERS == 3 ? sampler->sobol : QL_CFG_SAMPLERS == 2;
+}
+
 void ql_sampler_begin(ql_sampler_t *sampler, uint8_t kind, uint32_t seed,
         uint16_t x, uint16_t y)
 {
@@ -21,7 +26,7 @@ void ql_sampler_begin(ql_sampler_t *sampler, uint8_t kind, uint32_t seed,
 
 void ql_sampler_start(ql_sampler_t *sampler, uint32_t index)
 {
-    sampler->index = sampler->sobol ? ql_reverse32(index) : index * GOLDEN;
+    sampler->index = is_sobol(sampler) ? ql_reverse32(index) : index * GOLDEN;
 }
 
 ql_uniform2_t ql_sampler_2d(const ql_sampler_t *sampler, uint32_t dim)
@@ -30,7 +35,7 @@ ql_uniform2_t ql_sampler_2d(const ql_sampler_t *sampler, uint32_t dim)
     const uint32_t key2 = ql_hash32(key1 + GOLDEN);
     ql_uniform2_t u;
 
-    if (sampler->sobol) {
+    if (is_sobol(sampler)) {
         const uint32_t key3 = ql_hash32(key2 + GOLDEN);
         const uint32_t index =
                 ql_reverse32(ql_owen_reversed(sampler->index, key3));
@@ -47,9 +52,12 @@ ql_uniform2_t ql_sampler_2d(const ql_sampler_t *sampler, uint32_t dim)
 
 ql_uq32_t ql_sampler_1d(const ql_sampler_t *sampler, uint32_t dim)
 {
+#if QL_CFG_SMALL
+    return ql_sampler_2d(sampler, dim).u1;
+#else
     const uint32_t key1 = ql_hash32(sampler->key + dim * GOLDEN);
 
-    if (sampler->sobol) {
+    if (is_sobol(sampler)) {
         const uint32_t key3 = ql_hash32(ql_hash32(key1 + GOLDEN) + GOLDEN);
         const uint32_t index =
                 ql_reverse32(ql_owen_reversed(sampler->index, key3));
@@ -57,4 +65,5 @@ ql_uq32_t ql_sampler_1d(const ql_sampler_t *sampler, uint32_t dim)
         return ql_reverse32(ql_owen_reversed(index, key1));
     }
     return ql_hash32(key1 + sampler->index);
+#endif
 }

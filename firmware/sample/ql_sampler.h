@@ -42,7 +42,7 @@ typedef struct {
 /* Begin a pixel.
  *
  *   sampler  -   out
- *   kind     -   ql_sampler_kind_t
+ *   kind     -   ql_sampler_kind_t, one of QL_CFG_SAMPLERS
  *   seed     -   any; seeds that differ in one bit give unrelated numbers
  *   x, y     px  position in the picture
  */

@@ -14,13 +14,22 @@
 #include "base/ql_base.h"
 
 /* Reverse the 32 bits of x. */
-QL_INLINE uint32_t ql_reverse32(uint32_t x)
+QL_FAST_INLINE uint32_t ql_reverse32(uint32_t x)
 {
 #if defined(__thumb2__) && defined(__GNUC__)
     uint32_t r;
 
     __asm__("rbit %0, %1" : "=r"(r) : "r"(x));
     return r;
+#elif QL_CFG_SMALL
+    uint32_t mask = 0xffffffffu;
+
+    /* swap halves, quarters, ..: 0x0000ffff, 0x00ff00ff, .., 0x55555555 */
+    for (unsigned shift = 16; shift > 0; shift >>= 1) {
+        mask ^= mask << shift;
+        x = (x >> shift & mask) | (x & mask) << shift;
+    }
+    return x;
 #else
     x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
     x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
@@ -36,7 +45,7 @@ QL_INLINE uint32_t ql_reverse32(uint32_t x)
 
 /* Scramble a bit-reversed word: a bijection; bit k of the result depends on
  * bits 0..k of x only. Cost: four multiplications. */
-QL_INLINE uint32_t ql_owen_reversed(uint32_t x, uint32_t seed)
+QL_FAST_INLINE uint32_t ql_owen_reversed(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3d20adeau;
     x += seed;
@@ -52,11 +61,22 @@ QL_INLINE uint32_t ql_owen_reversed(uint32_t x, uint32_t seed)
  * product doubles in five steps. */
 QL_INLINE uint32_t ql_sobol_1_reversed(uint32_t x)
 {
+#if QL_CFG_SMALL
+    uint32_t mask = 0xffffffffu;
+
+    /* the same steps, which commute, last one first; ql_reverse32()'s masks */
+    for (unsigned shift = 16; shift > 0; shift >>= 1) {
+        mask ^= mask << shift;
+        x ^= x >> shift & mask;
+    }
+    return x;
+#else
     x ^= (x & 0xaaaaaaaau) >> 1;
     x ^= (x & 0xccccccccu) >> 2;
     x ^= (x & 0xf0f0f0f0u) >> 4;
     x ^= (x & 0xff00ff00u) >> 8;
     return x ^ x >> 16;
+#endif
 }
 
 #endif

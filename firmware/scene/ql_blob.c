@@ -43,7 +43,8 @@ static uint32_t header_bytes_of(uint32_t features)
     return bytes;
 }
 
-/* Find a table: aligned, after the header, entirely inside the blob. */
+/* Find a table: aligned, after the header, entirely inside the blob. Entries of
+ * a blob below 4 GB: entry_bytes * count_max fits 32 bits. */
 static const void *table_at(const ql_blob_header_t *header,
         const ql_blob_table_t *table, uint32_t entry_bytes, uint32_t count_max,
         uint32_t *count)
@@ -55,14 +56,14 @@ static const void *table_at(const ql_blob_header_t *header,
     if (offset % 4 != 0 ||
             offset < header_bytes_of(QL_LE32(header->features)) ||
             offset > size || *count > count_max ||
-            *count > (size - offset) / entry_bytes) {
+            *count * entry_bytes > size - offset) {
         return NULL;
     }
     return (const uint8_t *)header + offset;
 }
 
 /* A link and its meta lead to a leaf of real triangles, or to a real pair. */
-static bool link_valid(
+QL_FAST_INLINE bool link_valid(
         unsigned meta, uint32_t link, uint32_t pair_count, uint32_t tri_count)
 {
     if (meta < 3) {
@@ -86,19 +87,21 @@ static bool vertices_valid(const ql_blob_vertex_t *vertices, uint32_t count)
     return true;
 }
 
+#if QL_UNIT_NORMALS
 /* Is a triangle's unit normal no longer than 1, but for rounding? The warps
  * rely on that. */
 static bool normal_valid(const ql_scene_t *scene, const ql_blob_tri_t *tri)
 {
-    const ql_vec3_t v0 = ql_scene_corner(scene, tri, 0);
-    const ql_vec3_t e1 = ql_vec_sub(ql_scene_corner(scene, tri, 1), v0);
-    const ql_vec3_t e2 = ql_vec_sub(ql_scene_corner(scene, tri, 2), v0);
-    const ql_vec3_t n = ql_vec_unit(ql_vec_cross(e1, e2), QL_LE32(tri->inv_n));
-    const uint64_t x = ql_abs32(n.x), y = ql_abs32(n.y), z = ql_abs32(n.z);
+    const ql_edges_t e = ql_scene_edges(scene, tri);
+    const ql_vec3_t n =
+            ql_vec_unit(ql_vec_cross(e.e1, e.e2), QL_LE32(tri->inv_n));
+    const uint32_t x = ql_abs32(n.x), y = ql_abs32(n.y), z = ql_abs32(n.z);
 
     /* 3 2^62 fits; 2^38 is room for a length off by 2^-21 */
-    return x * x + y * y + z * z <= ((uint64_t)1 << 58) + ((uint64_t)1 << 38);
+    return ql_product_u32(x, x) + ql_product_u32(y, y) + ql_product_u32(z, z) <=
+           ((uint64_t)1 << 58) + ((uint64_t)1 << 38);
 }
+#endif
 
 /* Does an entry without a normal stand for a sphere there is? */
 static bool sphere_entry_valid(const ql_blob_tri_t *tri, uint32_t sphere_count)
@@ -132,9 +135,11 @@ static bool triangles_valid(const ql_scene_t *scene, uint32_t count,
                 return false;
             }
         }
+#if QL_UNIT_NORMALS
         if (!normal_valid(scene, tris + i)) {
             return false;
         }
+#endif
     }
     return true;
 }
@@ -380,15 +385,15 @@ static bool more_open(ql_scene_t *scene, const ql_blob_header_t *h,
 #endif
 #if QL_CFG_SKY_MAP
     scene->texels = more_table(
-            &more, QL_FEATURE_SKY_MAP, sizeof(ql_blob_texel_t), UINT32_MAX);
+            &more, QL_FEATURE_SKY_MAP, sizeof(ql_blob_texel_t), UINT32_MAX / 4);
     texels = more.count;
 #endif
 #if QL_CFG_TABLES
     scene->tables = more_table(&more, QL_FEATURE_TABLES,
             sizeof(ql_blob_distribution_t), UINT16_MAX);
     scene->table_count = (uint16_t)more.count; /* <= UINT16_MAX */
-    scene->words =
-            more_table(&more, QL_FEATURE_TABLES, sizeof(uint16_t), UINT32_MAX);
+    scene->words = more_table(
+            &more, QL_FEATURE_TABLES, sizeof(uint16_t), UINT32_MAX / 2);
     for (uint16_t i = 0; more.sound && i < scene->table_count; i++) {
         more.sound = distribution_valid(scene, scene->tables + i, more.count);
     }
@@ -434,7 +439,7 @@ static child_t child_of(const void *pairs, unsigned bits, uint32_t node)
 {
     child_t c = {0, 0, true};
 
-    if (bits == 16) {
+    if (!QL_CFG_NODE8 || (QL_CFG_NODE16 && bits == 16)) {
         const ql_blob_node16_t *n = (const ql_blob_node16_t *)pairs + node;
 
         c.link = QL_LE16(n->link);
@@ -504,13 +509,14 @@ static ql_status_t header_valid(const void *blob, size_t size)
     if (((uintptr_t)blob & 3u) != 0) {
         return QL_ERR_ALIGN;
     }
-    if (size < sizeof *h) {
-        return size >= 4 && QL_LE32(h->magic) != QL_BLOB_MAGIC
-                       ? QL_ERR_MAGIC
-                       : QL_ERR_TRUNCATED;
+    if (size < 4) {
+        return QL_ERR_TRUNCATED;
     }
     if (QL_LE32(h->magic) != QL_BLOB_MAGIC) {
         return QL_ERR_MAGIC;
+    }
+    if (size < sizeof *h) {
+        return QL_ERR_TRUNCATED;
     }
     if (QL_LE16(h->version) != QL_BLOB_VERSION) {
         return QL_ERR_VERSION;
@@ -554,55 +560,70 @@ static bool header_in_range(const ql_blob_header_t *h)
            QL_LE16(h->root_meta) <= 3 + QL_LEAF_MAX;
 }
 
+/* The tables of every blob, in the order of the header. */
+enum { CAMERA, VERTICES, TRIANGLES, PAIRS, MATERIALS, LIGHTS, BASIC_TABLES };
+
+static const struct {
+    uint32_t count_max;
+    uint32_t entry_bytes;
+} basic[BASIC_TABLES] = {{1, sizeof(ql_blob_camera_t)},
+        {QL_VERTEX_MAX, sizeof(ql_blob_vertex_t)},
+        {QL_TRI_MAX, sizeof(ql_blob_tri_t)},
+        {QL_TRI_MAX, 2 * sizeof(ql_blob_node16_t)},
+        {QL_MATERIAL_MAX, sizeof(ql_blob_material_t)},
+        {QL_LIGHT_MAX, sizeof(ql_blob_light_t)}};
+
 static ql_status_t tables_open(ql_scene_t *scene, const ql_blob_header_t *h)
 {
     const uint32_t features = QL_LE32(h->features);
-    uint32_t cameras, vertices, tris, pairs, materials, lights, spheres = 0;
+    const void *at[BASIC_TABLES];
+    uint32_t count[BASIC_TABLES], spheres = 0;
     bool sky = false;
 
     scene->header = h;
-    scene->node_bits = features & QL_FEATURE_NODE16 ? 16 : 8;
+    scene->node_bits =
+            !QL_CFG_NODE8 || (features & QL_FEATURE_NODE16) != 0 ? 16 : 8;
     scene->two_sided = (features & QL_FEATURE_TWO_SIDED) != 0;
     scene->root_link = QL_LE16(h->root_link);
     scene->root_meta = (uint8_t)QL_LE16(h->root_meta); /* <= 16 */
-    scene->camera =
-            table_at(h, &h->camera, sizeof(ql_blob_camera_t), 1, &cameras);
-    scene->vertices = table_at(h, &h->vertices, sizeof(ql_blob_vertex_t),
-            QL_VERTEX_MAX, &vertices);
-    scene->triangles = table_at(
-            h, &h->triangles, sizeof(ql_blob_tri_t), QL_TRI_MAX, &tris);
-    scene->pairs = table_at(h, &h->pairs,
-            scene->node_bits == 16 ? 2 * sizeof(ql_blob_node16_t)
-                                   : sizeof(ql_blob_pair8_t),
-            QL_TRI_MAX, &pairs);
-    scene->materials = table_at(h, &h->materials, sizeof(ql_blob_material_t),
-            QL_MATERIAL_MAX, &materials);
-    scene->lights = table_at(
-            h, &h->lights, sizeof(ql_blob_light_t), QL_LIGHT_MAX, &lights);
-    if (!scene->camera || cameras != 1 || !scene->vertices ||
-            !scene->triangles || !scene->pairs || !scene->materials ||
-            !scene->lights ||
-            (lights > 0) != ((features & QL_FEATURE_LIGHTS) != 0)) {
+    for (unsigned i = 0; i < BASIC_TABLES; i++) {
+        at[i] = table_at(h, &h->camera + i,
+                i == PAIRS && scene->node_bits == 8 ? sizeof(ql_blob_pair8_t)
+                                                    : basic[i].entry_bytes,
+                basic[i].count_max, &count[i]);
+        if (at[i] == NULL) {
+            return QL_ERR_RANGE;
+        }
+    }
+    scene->camera = at[CAMERA];
+    scene->vertices = at[VERTICES];
+    scene->triangles = at[TRIANGLES];
+    scene->pairs = at[PAIRS];
+    scene->materials = at[MATERIALS];
+    scene->lights = at[LIGHTS];
+    if (count[CAMERA] != 1 ||
+            (count[LIGHTS] > 0) != ((features & QL_FEATURE_LIGHTS) != 0)) {
         return QL_ERR_RANGE;
     }
-    scene->light_count = (uint16_t)lights; /* <= QL_LIGHT_MAX */
+    scene->light_count = (uint16_t)count[LIGHTS]; /* <= QL_LIGHT_MAX */
     if (QL_LE16(h->depth) > QL_CFG_BVH_STACK) {
         return QL_ERR_CAPACITY;
     }
     if (!camera_valid(scene->camera) ||
-            !vertices_valid(scene->vertices, vertices) ||
-            !materials_valid(scene->materials, materials) ||
-            !more_open(scene, h, vertices, materials, &spheres) ||
-            !triangles_valid(scene, tris, vertices, materials, spheres)) {
+            !vertices_valid(scene->vertices, count[VERTICES]) ||
+            !materials_valid(scene->materials, count[MATERIALS]) ||
+            !more_open(scene, h, count[VERTICES], count[MATERIALS], &spheres) ||
+            !triangles_valid(scene, count[TRIANGLES], count[VERTICES],
+                    count[MATERIALS], spheres)) {
         return QL_ERR_RANGE;
     }
 #if QL_CFG_SKY
     sky = scene->sky != NULL;
 #endif
-    if (!lights_valid(scene->lights, lights, tris, sky)) {
+    if (!lights_valid(scene->lights, count[LIGHTS], count[TRIANGLES], sky)) {
         return QL_ERR_RANGE;
     }
-    return tree_valid(scene, pairs, tris, QL_LE16(h->depth));
+    return tree_valid(scene, count[PAIRS], count[TRIANGLES], QL_LE16(h->depth));
 }
 
 ql_status_t ql_blob_open(ql_scene_t *scene, const void *blob, size_t size)

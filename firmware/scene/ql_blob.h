@@ -296,7 +296,8 @@ typedef struct ql_scene {
  *           QL_ERR_CAPACITY   deeper than QL_CFG_BVH_STACK
  *
  * Every offset, index, count and enum is checked here, once. Code in trace/ and
- * render/ relies on that and checks nothing again.
+ * render/ relies on that and checks nothing again. The length of a normal is
+ * checked in builds that use it (QL_UNIT_NORMALS).
  *
  * Memory: copies nothing; the blob must stay mapped and unchanged while in use.
  * Cost:   one pass over the blob.

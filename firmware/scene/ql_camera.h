@@ -8,25 +8,27 @@
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
 
-/* The blob's camera for one picture size: origin and direction of the ray
- * through the picture's top left corner, and their steps per pixel. */
+/* A coordinate that is affine in the picture: at its top left corner, and its
+ * steps per pixel. */
 typedef struct {
-    int64_t origin[3];    /* grid units, s31.32 */
-    int64_t origin_x[3];  /* per pixel to the right */
-    int64_t origin_y[3];  /* per pixel down */
-    int64_t direction[3]; /* s1.30 with 16 more fraction bits */
-    int64_t direction_x[3];
-    int64_t direction_y[3];
+    int64_t corner;
+    int64_t right;
+    int64_t down;
+} ql_camera_axis_t;
+
+/* The blob's camera for one picture size: x, y and z of the ray's origin (grid
+ * units, s31.32), then of its direction (s1.30 with 16 more fraction bits). */
+typedef struct {
+    ql_camera_axis_t axes[6];
 #if QL_CFG_LENS
     const ql_blob_lens_t *lens; /* NULL: a pinhole */
     uint8_t down;               /* its d is 2^down times too long */
 #endif
 } ql_camera_t;
 
-/* One pixel of a picture: its corner and steps, at the precision of a ray. */
+/* One pixel of a picture, at the precision of a ray. */
 typedef struct {
-    int64_t origin[3];    /* s.16: the pixel's top left corner */
-    int32_t direction[3]; /* s1.30 */
+    int64_t corner[6]; /* as the axes, with 16 fraction bits less */
     const ql_camera_t *camera;
 } ql_camera_pixel_t;
 

@@ -11,7 +11,7 @@
 
 /* v + b1 e1 + b2 e2 along one axis, to nearest. The weights add up to less than
  * 1 and the edges are < 2^15, so the sum is < 2^31 (draft) or 2^47. */
-QL_INLINE ql_pos_t blend(
+QL_FAST_INLINE ql_pos_t blend(
         int32_t v, int32_t e1, int32_t e2, uint32_t b1, uint32_t b2)
 {
 #if QL_POS_BITS == 0
@@ -102,16 +102,14 @@ void ql_light_point(const ql_scene_t *scene, uint16_t index, ql_uq32_t u1,
 {
     const ql_blob_light_t *light = scene->lights + index;
     const ql_blob_tri_t *tri = scene->triangles + QL_LE16(light->triangle);
-    const ql_vec3_t v0 = ql_scene_corner(scene, tri, 0);
-    const ql_vec3_t e1 = ql_vec_sub(ql_scene_corner(scene, tri, 1), v0);
-    const ql_vec3_t e2 = ql_vec_sub(ql_scene_corner(scene, tri, 2), v0);
+    const ql_edges_t t = ql_scene_edges(scene, tri);
     uint32_t b1, b2;
 
     ql_warp_triangle(u1, u2, &b1, &b2);
-    point->q.x = blend(v0.x, e1.x, e2.x, b1, b2);
-    point->q.y = blend(v0.y, e1.y, e2.y, b1, b2);
-    point->q.z = blend(v0.z, e1.z, e2.z, b1, b2);
-    point->corner = v0;
-    point->n = ql_vec_cross(e1, e2);
+    point->q.x = blend(t.v0.x, t.e1.x, t.e2.x, b1, b2);
+    point->q.y = blend(t.v0.y, t.e1.y, t.e2.y, b1, b2);
+    point->q.z = blend(t.v0.z, t.e1.z, t.e2.z, b1, b2);
+    point->corner = t.v0;
+    ql_vec_cross_to(&point->n, &t.e1, &t.e2);
     point->material = ql_scene_material(scene, tri);
 }

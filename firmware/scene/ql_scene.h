@@ -23,6 +23,22 @@ QL_INLINE ql_vec3_t ql_scene_corner(
     return p;
 }
 
+/* A triangle's corner 0 and its edges from there, grid units. */
+typedef struct {
+    ql_vec3_t v0, e1, e2;
+} ql_edges_t;
+
+QL_FAST_INLINE ql_edges_t ql_scene_edges(
+        const ql_scene_t *scene, const ql_blob_tri_t *tri)
+{
+    ql_edges_t e;
+
+    e.v0 = ql_scene_corner(scene, tri, 0);
+    e.e1 = ql_vec_sub(ql_scene_corner(scene, tri, 1), e.v0);
+    e.e2 = ql_vec_sub(ql_scene_corner(scene, tri, 2), e.v0);
+    return e;
+}
+
 /* Do emitters shine from both sides? */
 QL_INLINE bool ql_scene_two_sided(const ql_scene_t *scene)
 {

@@ -39,21 +39,28 @@ typedef struct {
     int32_t low, span;
 } interval_t;
 
-/* A ray as the box test wants it. kx, ky, kz are byte offsets into a box. */
+/* A ray in the plane of an axis x and the dominant one. */
 typedef struct {
-    uint8_t kx, ky, kz;
-    uint8_t backward;   /* bit k: the direction is negative on axis k */
-    int32_t dx, dy, dz; /* 15 bits; dz > 0 */
-    int32_t ax, ay;     /* |dx|, |dy| */
-    int32_t ox, oy;     /* o_x d_z - o_z d_x less the margin */
-    interval_t z;       /* the ray's interval on axis z */
-    int32_t start;      /* o_z, ql_pos_t */
-    uint32_t size_z;    /* |d_z| of the ray itself */
+    uint8_t k;    /* byte offset of the axis into a box */
+    int32_t d;    /* d_x, 15 bits */
+    int32_t size; /* |d_x| */
+    int32_t o;    /* o_x d_z - o_z d_x less the margin */
+} plane_t;
+
+/* A ray as the box test wants it. */
+typedef struct {
+    uint8_t kz;       /* byte offset of the dominant axis into a box */
+    uint8_t backward; /* bit k: the direction is negative on axis k */
+    int32_t dz;       /* 15 bits; > 0 */
+    plane_t x, y;     /* of the other axes */
+    interval_t z;     /* the ray's interval on axis z */
+    int32_t start;    /* o_z, ql_pos_t */
+    uint32_t size_z;  /* |d_z| of the ray itself */
 } probe_t;
 
 /* Do low..low + span and c - h..c + h have an integer in common? An empty
  * interval (span -1 or -2) and a flat box may be said to: that costs a test. */
-QL_INLINE bool meets(interval_t i, int32_t c, int32_t h)
+QL_FAST_INLINE bool meets(interval_t i, int32_t c, int32_t h)
 {
     return (uint32_t)(c + h - i.low) <= (uint32_t)(2 * h + i.span);
 }
@@ -85,8 +92,8 @@ QL_INLINE void probe_axes(probe_t *p, int32_t ox, int32_t dx, uint8_t kx,
 {
     const uint32_t az = ql_abs32(dz);
 
-    p->kx = kx;
-    p->ky = ky;
+    p->x.k = kx;
+    p->y.k = ky;
     p->kz = kz;
     p->start = oz;
     p->size_z = az;
@@ -109,13 +116,13 @@ QL_INLINE void probe_axes(probe_t *p, int32_t ox, int32_t dx, uint8_t kx,
         dy = -dy;
         dz = -dz;
     }
-    p->dx = dx;
-    p->dy = dy;
     p->dz = dz;
-    p->ax = (int32_t)ql_abs32(dx);
-    p->ay = (int32_t)ql_abs32(dy);
-    p->ox = ox * dz - oz * dx - MARGIN;
-    p->oy = oy * dz - oz * dy - MARGIN;
+    p->x.d = dx;
+    p->x.size = (int32_t)ql_abs32(dx);
+    p->x.o = ox * dz - oz * dx - MARGIN;
+    p->y.d = dy;
+    p->y.size = (int32_t)ql_abs32(dy);
+    p->y.o = oy * dz - oz * dy - MARGIN;
 }
 
 static QL_NOINLINE void probe_begin(
@@ -123,6 +130,19 @@ static QL_NOINLINE void probe_begin(
 {
     const ql_vec3_t d = ray->direction, o = ray->origin;
     const uint32_t ax = ql_abs32(d.x), ay = ql_abs32(d.y), az = ql_abs32(d.z);
+#if QL_CFG_SMALL
+    const int32_t from[3] = {o.x, o.y, o.z}, way[3] = {d.x, d.y, d.z};
+    const uint8_t z = az >= ax && az >= ay ? 2 : ay >= ax ? 1 : 0;
+    const uint8_t x = z == 0 ? 1 : 0, y = z == 2 ? 1 : 2;
+
+    p->backward = 0;
+    for (unsigned k = 0; k < 3; k++) {
+        p->backward = (uint8_t)(p->backward | (way[k] < 0) << k);
+        axes[k] = interval_of(from[k], way[k], segment);
+    }
+    probe_axes(p, from[x], way[x], (uint8_t)(2 * x), from[y], way[y],
+            (uint8_t)(2 * y), from[z], way[z], (uint8_t)(2 * z));
+#else
 
     p->backward = (uint8_t)((d.x < 0) | (d.y < 0) << 1 | (d.z < 0) << 2);
     if (az >= ax && az >= ay) {
@@ -135,6 +155,7 @@ static QL_NOINLINE void probe_begin(
     axes[0] = interval_of(o.x, d.x, segment);
     axes[1] = interval_of(o.y, d.y, segment);
     axes[2] = interval_of(o.z, d.z, segment);
+#endif
     p->z = axes[p->kz >> 1];
 }
 
@@ -147,8 +168,8 @@ QL_INLINE int32_t load16(const void *words, unsigned offset)
 /* The centre and half of a box along one axis, grid units. node counts
  * children: child n & 1 of pair n / 2. bits is a constant, so only one of the
  * two remains. */
-QL_INLINE void box_axis(const ql_scene_t *scene, uint32_t node, unsigned bits,
-        unsigned offset, int32_t *centre, int32_t *half)
+QL_FAST_INLINE void box_axis(const ql_scene_t *scene, uint32_t node,
+        unsigned bits, unsigned offset, int32_t *centre, int32_t *half)
 {
     if (bits == 16) {
         const ql_blob_node16_t *n =
@@ -167,40 +188,44 @@ QL_INLINE void box_axis(const ql_scene_t *scene, uint32_t node, unsigned bits,
     }
 }
 
-QL_INLINE bool box_hit(
-        const ql_scene_t *scene, uint32_t node, unsigned bits, const probe_t *p)
+/* A node's extent along the dominant axis. */
+typedef struct {
+    int32_t centre, half;
+} extent_t;
+
+/* The line test in one plane. */
+QL_FAST_INLINE bool line_hit(const ql_scene_t *scene, uint32_t node,
+        unsigned bits, const plane_t *plane, int32_t dz, extent_t z)
 {
-    int32_t cz, hz, c, h;
+    int32_t c, h;
     uint32_t a, b;
 
-    box_axis(scene, node, bits, p->kz, &cz, &hz);
-    if (!meets(p->z, cz, hz)) {
-        return false;
-    }
-    box_axis(scene, node, bits, p->kx, &c, &h);
-    a = (uint32_t)(c * p->dz) - (uint32_t)(cz * p->dx) - (uint32_t)p->ox;
-    b = (uint32_t)(h * p->dz) + (uint32_t)(hz * p->ax);
-    if (a + b > 2 * b + 2 * MARGIN) {
-        return false;
-    }
-    box_axis(scene, node, bits, p->ky, &c, &h);
-    a = (uint32_t)(c * p->dz) - (uint32_t)(cz * p->dy) - (uint32_t)p->oy;
-    b = (uint32_t)(h * p->dz) + (uint32_t)(hz * p->ay);
+    box_axis(scene, node, bits, plane->k, &c, &h);
+    a = (uint32_t)(c * dz) - (uint32_t)(z.centre * plane->d) -
+        (uint32_t)plane->o;
+    b = (uint32_t)(h * dz) + (uint32_t)(z.half * plane->size);
     return a + b <= 2 * b + 2 * MARGIN;
 }
 
-/* The intervals of the axes that are not dominant. */
-QL_INLINE bool sides_hit(const ql_scene_t *scene, uint32_t node, unsigned bits,
-        const probe_t *p, const interval_t axes[3])
+QL_INLINE bool box_hit(
+        const ql_scene_t *scene, uint32_t node, unsigned bits, const probe_t *p)
+{
+    extent_t z;
+
+    box_axis(scene, node, bits, p->kz, &z.centre, &z.half);
+    return meets(p->z, z.centre, z.half) &&
+           line_hit(scene, node, bits, &p->x, p->dz, z) &&
+           line_hit(scene, node, bits, &p->y, p->dz, z);
+}
+
+/* The interval of an axis that is not dominant. */
+QL_FAST_INLINE bool side_hit(const ql_scene_t *scene, uint32_t node,
+        unsigned bits, unsigned k, const interval_t axes[3])
 {
     int32_t c, h;
 
-    box_axis(scene, node, bits, p->kx, &c, &h);
-    if (!meets(axes[p->kx >> 1], c, h)) {
-        return false;
-    }
-    box_axis(scene, node, bits, p->ky, &c, &h);
-    return meets(axes[p->ky >> 1], c, h);
+    box_axis(scene, node, bits, k, &c, &h);
+    return meets(axes[k >> 1], c, h);
 }
 
 /* Where a node leads: as root_link and root_meta of the header. */
@@ -227,16 +252,12 @@ QL_INLINE unsigned node_link(
  * and the largest component of the direction is 2^(b-1) or more. */
 static ql_uq30_t parameter(uint64_t t, uint64_t det)
 {
-    const unsigned zeros = ql_clz64(det);
-    uint32_t det30, t30;
+    /* det < 2^55 (ql_tri.h), so there are 9 leading zeros or more; t < 4 det
+     * needs two of them */
+    const unsigned up = ql_clz64(det) - 2;
+    const uint32_t det30 = (uint32_t)(det << up >> 32);
+    const uint32_t t30 = (uint32_t)(t << up >> 32);
 
-    if (zeros < 34) {
-        det30 = (uint32_t)(det >> (34 - zeros));
-        t30 = (uint32_t)(t >> (34 - zeros));
-    } else {
-        det30 = (uint32_t)(det << (zeros - 34));
-        t30 = (uint32_t)(t << (zeros - 34));
-    }
     /* 2^63 / (4 det30) = 2^61 / det30, times t30 is t 2^61; >> 32, << 1 */
     return ql_mulhi_u32(t30, ql_recip_m(det30 << 2)) << 1;
 }
@@ -270,6 +291,13 @@ QL_INLINE int sphere_hit(const ql_blob_sphere_t *sphere, const ql_ray_t *ray,
 }
 #endif
 
+/* ql_tri_hit(), once in each walk, or once only. */
+QL_FAST_INLINE int tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
+        const ql_ray_t *ray, uint64_t *det, uint64_t *t)
+{
+    return ql_tri_hit(scene, tri, ray, det, t);
+}
+
 /* Test the triangles and spheres of a leaf; shorten the ray to the nearest
  * hit. */
 QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
@@ -283,9 +311,9 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
 #if QL_CFG_SPHERES
         const ql_blob_sphere_t *const sphere = ql_scene_sphere(scene, tri);
         const int side = sphere != NULL ? sphere_hit(sphere, ray, &det, &t)
-                                        : ql_tri_hit(scene, tri, ray, &det, &t);
+                                        : tri_hit(scene, tri, ray, &det, &t);
 #else
-        const int side = ql_tri_hit(scene, tri, ray, &det, &t);
+        const int side = tri_hit(scene, tri, ray, &det, &t);
 #endif
 
         if (side != 0) {
@@ -324,7 +352,7 @@ QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
 #else
         (void)but;
 #endif
-        if (ql_tri_hit(scene, tri, ray, &det, &t) != 0 && t < det) {
+        if (tri_hit(scene, tri, ray, &det, &t) != 0 && t < det) {
             return true;
         }
     }
@@ -334,8 +362,8 @@ QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
 /* Walk the tree front to back. hit is NULL for an any-hit segment, which a
  * sphere at index but does not block. Returns true as soon as a segment is
  * blocked. */
-QL_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit,
-        uint16_t but, unsigned bits)
+QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
+        ql_hit_t *hit, uint16_t but, unsigned bits)
 {
     uint32_t stack[QL_CFG_BVH_STACK];
     uint32_t *top = stack;
@@ -365,7 +393,9 @@ QL_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit,
         for (;;) {
             if (box_hit(scene, node, bits, &p)) {
                 link = node_link(scene, node, bits, &meta);
-                if (meta < 3 || sides_hit(scene, node, bits, &p, axes)) {
+                if (meta < 3 ||
+                        (side_hit(scene, node, bits, p.x.k, axes) &&
+                                side_hit(scene, node, bits, p.y.k, axes))) {
                     break;
                 }
             }

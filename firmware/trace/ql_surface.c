@@ -8,7 +8,7 @@
 #include "trace/ql_tri.h"
 
 /* t d for t in u2.30, cut towards zero: below 2^(15+f) for hits in the box */
-static int32_t advance(int32_t d, ql_uq30_t t)
+QL_FAST_INLINE int32_t advance(int32_t d, ql_uq30_t t)
 {
     /* |d| <= 2^23 (2^15 in draft), so |d| << 8 fits; t |d| 2^8 >> 32 has
      * 2^6 of a unit to drop */
@@ -19,32 +19,30 @@ static int32_t advance(int32_t d, ql_uq30_t t)
 
 unsigned ql_surface_step(ql_vec3_t *p, ql_vec3_t on, ql_vec3_t n)
 {
-    uint32_t ax, ay, az;
+    const uint32_t ax = ql_abs32(n.x), ay = ql_abs32(n.y), az = ql_abs32(n.z);
     ql_vec3_t from_plane;
     int64_t side;
+    ql_pos_t *at = &p->z;
+    int32_t size = n.z;
     unsigned steps = 0;
 
     from_plane.x = p->x - on.x * (1 << QL_POS_BITS);
     from_plane.y = p->y - on.y * (1 << QL_POS_BITS);
     from_plane.z = p->z - on.z * (1 << QL_POS_BITS);
-    side = ql_vec_dot_n(from_plane, n);
+    side = ql_vec_dot_n_of(&from_plane, &n);
     if (side > 0) {
         return 0; /* half of all points */
     }
-    ax = ql_abs32(n.x);
-    ay = ql_abs32(n.y);
-    az = ql_abs32(n.z);
+    if (ax >= ay && ax >= az) {
+        at = &p->x;
+        size = n.x;
+    } else if (ay >= az) {
+        at = &p->y;
+        size = n.y;
+    }
     while (side <= 0 && steps < QL_SIDE_STEPS_MAX) {
-        if (ax >= ay && ax >= az) {
-            p->x += n.x < 0 ? -1 : 1;
-            side += ax;
-        } else if (ay >= az) {
-            p->y += n.y < 0 ? -1 : 1;
-            side += ay;
-        } else {
-            p->z += n.z < 0 ? -1 : 1;
-            side += az;
-        }
+        *at += size < 0 ? -1 : 1;
+        side += ql_abs32(size);
         steps++;
     }
     return steps;
@@ -188,7 +186,7 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
         const ql_hit_t *hit, ql_surface_t *surface)
 {
     const ql_blob_tri_t *tri = scene->triangles + hit->tri_idx;
-    ql_vec3_t v0, e1, e2;
+    ql_edges_t t;
 
 #if QL_CFG_SMOOTH
     surface->smooth = false;
@@ -200,13 +198,12 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
         return;
     }
 #endif
-    v0 = ql_scene_corner(scene, tri, 0);
-    e1 = ql_vec_sub(ql_scene_corner(scene, tri, 1), v0);
-    e2 = ql_vec_sub(ql_scene_corner(scene, tri, 2), v0);
-    surface->n = hit->front ? ql_vec_cross(e1, e2) : ql_vec_cross(e2, e1);
+    t = ql_scene_edges(scene, tri);
+    ql_vec_cross_to(&surface->n, hit->front ? &t.e1 : &t.e2,
+            hit->front ? &t.e2 : &t.e1);
     surface->inv_n = QL_LE32(tri->inv_n);
     point_at(ray, hit->t, &surface->p);
-    (void)ql_surface_step(&surface->p, v0, surface->n);
+    (void)ql_surface_step(&surface->p, t.v0, surface->n);
 #if QL_CFG_SMOOTH
     if (scene->normals != NULL) {
         smooth_at(scene, tri, ray, hit->front, surface);

@@ -27,25 +27,23 @@
 
 /* Edges and origin offset of one triangle as seen from a ray. */
 typedef struct {
-    ql_vec3_t s;      /* origin - v0, ql_pos_t */
-    ql_vec3_t e1, e2; /* grid units */
+    ql_vec3_t s;  /* origin - v0, ql_pos_t */
+    ql_edges_t t; /* grid units */
 } ql_tri_frame_t;
 
 QL_INLINE ql_tri_frame_t ql_tri_frame(
         const ql_scene_t *scene, const ql_blob_tri_t *tri, ql_vec3_t origin)
 {
-    const ql_vec3_t v0 = ql_scene_corner(scene, tri, 0);
     ql_tri_frame_t f;
 
-    f.e1 = ql_vec_sub(ql_scene_corner(scene, tri, 1), v0);
-    f.e2 = ql_vec_sub(ql_scene_corner(scene, tri, 2), v0);
-    f.s.x = origin.x - v0.x * (1 << QL_POS_BITS);
-    f.s.y = origin.y - v0.y * (1 << QL_POS_BITS);
-    f.s.z = origin.z - v0.z * (1 << QL_POS_BITS);
+    f.t = ql_scene_edges(scene, tri);
+    f.s.x = origin.x - f.t.v0.x * (1 << QL_POS_BITS);
+    f.s.y = origin.y - f.t.v0.y * (1 << QL_POS_BITS);
+    f.s.z = origin.z - f.t.v0.z * (1 << QL_POS_BITS);
     return f;
 }
 
-#if QL_POS_BITS == 0 && !QL_PORT_WIDE_MUL
+#if QL_POS_BITS == 0 && !QL_PORT_WIDE_MUL && !QL_CFG_SMALL
 /* Whether a.b and c.b certainly have the same sign, from the high halves of b:
  * they leave less than 3 2^31 out of the product, 3 2^15 of the sum here. Saves
  * two exact products for most misses where a product is put together. */
@@ -69,22 +67,23 @@ QL_INLINE bool ql_tri_edges(
         const ql_tri_frame_t *f, ql_vec3_t d, int64_t *u, int64_t *minus_v)
 {
 #if QL_POS_BITS == 0
-    const ql_vec3_t q = ql_vec_cross(f->s, d);
+    ql_vec3_t q;
 
-#if !QL_PORT_WIDE_MUL
-    if (same_sign_coarse(f->e1, f->e2, q)) {
+    ql_vec_cross_to(&q, &f->s, &d);
+#if !QL_PORT_WIDE_MUL && !QL_CFG_SMALL
+    if (same_sign_coarse(f->t.e1, f->t.e2, q)) {
         return false;
     }
 #endif
-    *u = ql_dot_s16_s32(f->e2.x, f->e2.y, f->e2.z, q.x, q.y, q.z);
-    *minus_v = ql_dot_s16_s32(f->e1.x, f->e1.y, f->e1.z, q.x, q.y, q.z);
+    *u = ql_vec_dot_n_of(&f->t.e2, &q);
+    *minus_v = ql_vec_dot_n_of(&f->t.e1, &q);
 #else
     const int64_t qx = (int64_t)f->s.y * d.z - (int64_t)f->s.z * d.y;
     const int64_t qy = (int64_t)f->s.z * d.x - (int64_t)f->s.x * d.z;
     const int64_t qz = (int64_t)f->s.x * d.y - (int64_t)f->s.y * d.x;
 
-    *u = qx * f->e2.x + qy * f->e2.y + qz * f->e2.z;
-    *minus_v = qx * f->e1.x + qy * f->e1.y + qz * f->e1.z;
+    *u = qx * f->t.e2.x + qy * f->t.e2.y + qz * f->t.e2.z;
+    *minus_v = qx * f->t.e1.x + qy * f->t.e1.y + qz * f->t.e1.z;
 #endif
     return (*u <= 0 || *minus_v <= 0) && (*u >= 0 || *minus_v >= 0);
 }
@@ -110,8 +109,8 @@ QL_INLINE int ql_tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     if (!ql_tri_edges(&f, ray->direction, &u, &minus_v)) {
         return 0; /* u and v have opposite signs */
     }
-    n = ql_vec_cross(f.e1, f.e2);
-    det = -ql_vec_dot_n(ray->direction, n);
+    ql_vec_cross_to(&n, &f.t.e1, &f.t.e2);
+    det = -ql_vec_dot_n_of(&ray->direction, &n);
     if (det < 0) {
         u = -u;
         minus_v = -minus_v;
@@ -120,7 +119,7 @@ QL_INLINE int ql_tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     if (u < 0 || minus_v > 0 || u > limit || -minus_v > limit - u) {
         return 0;
     }
-    t = ql_vec_dot_n(f.s, n);
+    t = ql_vec_dot_n_of(&f.s, &n);
     if (det < 0) {
         t = -t;
     }

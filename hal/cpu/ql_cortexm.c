@@ -8,9 +8,6 @@
 /* From linker/sections.ld. */
 extern uint32_t ql_ld_stack_bottom[];
 extern uint32_t ql_ld_stack_top[];
-extern uint32_t ql_ld_data_begin[];
-extern uint32_t ql_ld_data_end[];
-extern const uint32_t ql_ld_data_load[];
 extern uint32_t ql_ld_bss_begin[];
 extern uint32_t ql_ld_bss_end[];
 
@@ -21,11 +18,7 @@ void ql_cpu_fault_report(const uint32_t *frame, uint32_t vector);
 
 void ql_cpu_reset(void)
 {
-    const uint32_t *from = ql_ld_data_load;
-
-    for (uint32_t *to = ql_ld_data_begin; to < ql_ld_data_end; to++) {
-        *to = *from++;
-    }
+    /* linker/sections.ld asserts that there is no initialised data to copy */
     for (uint32_t *to = ql_ld_bss_begin; to < ql_ld_bss_end; to++) {
         *to = 0;
     }

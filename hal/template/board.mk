@@ -11,6 +11,8 @@ BOARD_STACK := 2048
 # The picture unless make is told another: pixels, samples a pixel.
 BOARD_SIZE := 64x64
 BOARD_SPP := 4
+# With a panel: BOARD_PANEL := its format (rgb565-be, gray4, ..), as in board.h.
+# BOARD_LTO := 1 for link-time optimisation.
 # The emulator, and how to load a real board ($elf, $hex, $bin).
 BOARD_QEMU := false
 BOARD_FLASH := false

@@ -73,7 +73,7 @@ WARP_BOARDS ?= $(BOARDS)
 bench-warps: build/$(SCENE).qlb build/bench_tables.h build/warps-pc \
     build/warps-pc-draft ## Instructions per warp
 	$(call on_boards,$(WARP_BOARDS),warps,$(call \
-	    bench_main,bench_warps.c warp_list.c) STRATEGIES=1 \
+	    bench_main,bench_warps.c warp_list.c) STRATEGIES=1 LTO=0 \
 	    FIRMWARE_SRC='$(warps_src)' \
 	    CFLAGS_BOARD='-UQL_CFG_FEATURES_HEADER -Ibuild')
 	@tests/bench/count_warps.sh build/warps-pc-draft draft

@@ -48,10 +48,18 @@ rows bench-warps WARP_BOARDS='lm3s6965evb microbit'
 rows bench-strategies
 compare tests/budgets/instructions.txt "$dir/bench" bench/boards || failed=1
 
-$make -s --no-print-directory size > "$dir/size" 2> "$dir/log" || {
-    echo "bench/size measures_every_board FAIL" "$(tail -1 "$dir/log")"
-    failed=1
+# size_of VARIABLE=value...: add the rows of that choice
+size_of()
+{
+    $make -s --no-print-directory size "$@" >> "$dir/size" 2> "$dir/log" || {
+        echo "bench/size measures_every_board FAIL" "$(tail -1 "$dir/log")"
+        failed=1
+    }
 }
+
+size_of
+size_of BOARD=microbit SMALL=1
+size_of BOARD=microbit SMALL=1 SCENE=square INDIRECT=none BOUNCES=0
 compare tests/budgets/sizes.txt "$dir/size" bench/size || failed=1
 
 if $make -s --no-print-directory bench-pc > "$dir/pc" 2>&1; then

@@ -129,6 +129,10 @@ for board; do
     claim "$board" lens_is_the_same scene lens "$board" SIZE=20x20 SPP=1
     claim "$board" smooth_normals_are_the_same \
         scene smooth "$board" SIZE=20x20 SPP=1 PRECISION=fine
+    claim "$board" small_code_draws_the_same \
+        same "$board" SMALL=1 DIAG=1 SIZE=24x24
+    claim "$board" direct_light_alone_is_the_same scene square "$board" \
+        SMALL=1 DIAG=1 SIZE=24x24 INDIRECT=none BOUNCES=0
     for direct in hemisphere cosine solid-angle mis; do
         claim "$board" "strategy_${direct}_is_the_same" scene strategies \
             "$board" SIZE=16x16 SPP=1 DIRECT=$direct LIGHTS=uniform \

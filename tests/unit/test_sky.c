@@ -9,6 +9,8 @@
 #include "scene/build_table.h"
 #include "scene/ql_sky.h"
 
+#if QL_CFG_SKY_MAP
+
 /* Errors of a drawn direction, rad, and of a density, relative. */
 #define ANGLE_ERROR   (QL_CFG_PRECISION == 0 ? 4e-5 : 9e-8)
 #define INVERSE_ERROR 0x1p-26
@@ -590,9 +592,23 @@ TEST(directions_are_even_within_a_single_bright_texel)
     NOTE("p = %.2f", p);
 }
 
+#else
+
+TEST(a_map_is_named_as_missing)
+{
+    ql_blob_header_t header = {0};
+
+    header.features = QL_LE32(QL_FEATURE_SKY_MAP);
+    CHECK(strcmp(ql_blob_missing(&header), "sky-map") == 0, "%s",
+            ql_blob_missing(&header));
+}
+
+#endif
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_sky", argc, argv);
+#if QL_CFG_SKY_MAP
     RUN(directions_are_looked_up_where_their_angles_say);
     RUN(every_small_vector_and_the_poles_are_looked_up);
     RUN(the_map_begins_at_its_azimuth_and_runs_from_z_to_x);
@@ -605,5 +621,8 @@ int main(int argc, char **argv)
     RUN(directions_fall_in_texels_as_their_masses_say);
     RUN(a_density_without_the_sine_is_rejected);
     RUN(directions_are_even_within_a_single_bright_texel);
+#else
+    RUN(a_map_is_named_as_missing);
+#endif
     return TEST_END();
 }

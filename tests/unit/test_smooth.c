@@ -166,7 +166,7 @@ static bool random_hit(ql_ray_t *ray, ql_hit_t *hit)
 static normal_t interpolated(const ql_ray_t *ray, bool front)
 {
     const ql_tri_frame_t f = ql_tri_frame(&one.scene, &one.tri, ray->origin);
-    const ql_vec3_t n = ql_vec_cross(f.e1, f.e2);
+    const ql_vec3_t n = ql_vec_cross(f.t.e1, f.t.e2);
     normal_t sum = {0, 0, 0};
     double det, w[3];
     int64_t u = 0, minus_v = 0;

@@ -6,6 +6,7 @@ BOARD_MCU := lm3s6965
 BOARD_SRC := hal/cpu/ql_cortexm.c hal/drivers/ssd0323.c
 BOARD_STACK := 3072
 BOARD_SIZE := 128x64
+BOARD_PANEL := gray4
 BOARD_SPP := 8
 BOARD_QEMU := qemu-system-arm -M lm3s6965evb
 BOARD_FLASH := openocd -f board/ek-lm3s6965.cfg -c "program $$elf verify reset exit"

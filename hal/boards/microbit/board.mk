@@ -3,6 +3,7 @@ BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0 -mthumb
 BOARD_CORE := cortex-m0
 BOARD_OPT := -Os
+BOARD_LTO := 1
 BOARD_MCU := nrf51822
 BOARD_SRC := hal/cpu/ql_cortexm.c
 BOARD_STACK := 3072
