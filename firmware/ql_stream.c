@@ -61,6 +61,7 @@ uint16_t ql_stream_end(uint8_t *frame, const ql_stream_end_t *end)
     at = put32(at, end->diag.shadow_rays);
     at = put32(at, end->diag.saturated);
     at = put32(at, end->ticks);
-    put32(at, end->tick_hz);
+    at = put32(at, end->tick_hz);
+    put32(at, end->diag.faint);
     return seal(frame, QL_STREAM_END, QL_STREAM_END_BYTES);
 }

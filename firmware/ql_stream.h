@@ -13,7 +13,7 @@
  *   bytes, spp u32, seed u32.
  * L is one line: y u16, then QL_LINE_BYTES(width, format) bytes. Any order.
  * E ends it: status i32, paths u32, closest rays u32, shadow rays u32,
- *   saturated u32, ticks u32, tick_hz u32.
+ *   saturated u32, ticks u32, tick_hz u32, faint u32.
  *
  * Bytes between frames (boot messages, noise) are skipped by the receiver. */
 
@@ -29,7 +29,7 @@
 #define QL_STREAM_END                  'E'
 #define QL_STREAM_HEAD_BYTES           16u
 #define QL_STREAM_LINE_PREFIX          2u
-#define QL_STREAM_END_BYTES            28u
+#define QL_STREAM_END_BYTES            32u
 #define QL_STREAM_PREFIX               5u /* bytes before the payload */
 #define QL_STREAM_FRAME_BYTES(payload) (QL_STREAM_PREFIX + (payload) + 4u)
 

@@ -129,6 +129,7 @@ static void print_stats(const sim_stats_t *s)
     printf("rays-per-path: %.3f\n",
             s->paths != 0 ? rays / (double)s->paths : 0);
     printf("saturated: %" PRIu64 "\n", s->saturated);
+    printf("faint: %" PRIu64 "\n", s->faint);
     printf("seconds: %.3f\n", s->seconds);
     printf("precision: " PRECISION "\n");
 }

@@ -42,7 +42,7 @@ static const char help[] =
         "  --save-sums FILE   exact sums, for qlux-merge (.qls)\n"
         "  --samples-map FILE how many samples each pixel took (.pfm)\n"
         "  --threads N        1 to 1024                    one a processor\n"
-        "  --stats            print counts of paths and rays\n"
+        "  --stats            print counts of paths, rays and what lost precision\n"
         "  --quiet            no progress bar\n"
         "  --version          print the version\n"
         "\n"

@@ -49,6 +49,7 @@ static void report(job_t *job, ql_diag_t *diag, uint32_t *samples)
     job->stats.closest_rays += diag->closest_rays;
     job->stats.shadow_rays += diag->shadow_rays;
     job->stats.saturated += diag->saturated;
+    job->stats.faint += diag->faint;
     job->done += *samples;
     cli_progress("rendering", job->done, job->total, job->quiet);
     pthread_mutex_unlock(&job->lock);

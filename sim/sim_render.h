@@ -13,6 +13,7 @@ typedef struct {
     uint64_t closest_rays;
     uint64_t shadow_rays;
     uint64_t saturated;
+    uint64_t faint;
     double seconds;
 } sim_stats_t;
 

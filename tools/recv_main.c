@@ -420,7 +420,8 @@ static void check_complete(const picture_t *picture, const char *path)
 static void print_stats(const picture_t *picture, const input_t *in)
 {
     static const char *const keys[QL_STREAM_END_BYTES / 4] = {"status", "paths",
-            "closest_rays", "shadow_rays", "saturated", "ticks", "tick_hz"};
+            "closest_rays", "shadow_rays", "saturated", "ticks", "tick_hz",
+            "faint"};
     const uint32_t ticks = picture->end[5], hz = picture->end[6];
 
     printf("width: %u\nheight: %u\nspp: %lu\nseed: %lu\n", picture->width,

@@ -28,11 +28,14 @@ static uint32_t product_round(uint32_t a, uint32_t b)
 static void add_light(const ql_path_t *path, const ql_rgb_t *carried,
         const ql_uq32_t emission[3], ql_real_t scale)
 {
+    ql_uq31_t value[3];
+
     scale.e = (int16_t)(scale.e + carried->e);
     for (unsigned i = 0; i < 3; i++) {
-        ql_film_add(&path->sum->rgb[i],
-                product_round(carried->c[i], emission[i]), scale, path->diag);
+        value[i] = product_round(carried->c[i], emission[i]);
     }
+    ql_film_add(
+            path->sum, value, scale, ql_sampler_key(path->sampler), path->diag);
 }
 
 #if QL_CFG_STRATEGIES

@@ -3,23 +3,54 @@
 
 #include "render/ql_film.h"
 
-void ql_film_add(
-        uint64_t *sum, ql_uq31_t value, ql_real_t scale, ql_diag_t *diag)
+#include "sample/ql_hash.h"
+
+/* value m / 2^down: half up, or if it is faint up with the chance of what is cut
+ * off, so that its mean is the number itself. Above QL_CONTRIBUTION_MAX where it
+ * does not fit. */
+static QL_NOINLINE uint64_t rounded(
+        uint32_t value, uint32_t m, int32_t down, uint32_t key, ql_diag_t *diag)
 {
-    /* value m 2^(e - 31 + 24); the product is below 2^64 - 2^33 */
-    const uint64_t exact = ql_product_u32(value, scale.m);
-    const int shift = scale.e - 7;
+    const uint64_t exact = ql_product_u32(value, m); /* < 2^64 - 2^33 */
+    uint64_t fixed = 0;
+    uint32_t more = 0x80000000u;
+
+    if (down <= 0) {
+        return down > -40 && exact <= QL_CONTRIBUTION_MAX >> -down
+                       ? exact << -down
+                       : QL_CONTRIBUTION_MAX + 1;
+    }
+    if (down < 32) { /* value or more, which was rounded as coarsely */
+        return ((exact >> (down - 1)) + 1) >> 1;
+    }
+    if (down < 96) {
+        fixed = exact >> (down - 32); /* 32 fraction bits */
+    }
+    if (fixed >> 32 < QL_FAINT) {
+        more = ql_hash32(key + (uint32_t)exact);
+        if ((uint32_t)fixed != 0 || fixed == 0) {
+            QL_DIAG_COUNT(diag, faint);
+        }
+    }
+    return (fixed + more) >> 32;
+}
+
+static void add_channel(uint64_t *sum, uint32_t value, uint32_t m, int32_t down,
+        uint32_t key, ql_diag_t *diag)
+{
     uint64_t add = 0;
 
-    if (value == 0) {
-        return; /* most surfaces emit nothing */
+#if !QL_CFG_SMALL
+    /* Most contributions are below 2^31: the product's high word decides. */
+    if (down > 32 && down < 64) {
+        const uint32_t twice = ql_mulhi_u32(value, m) >> (down - 33);
+
+        add = (twice >> 1) + (twice & 1u);
+        add = twice >> 1 < QL_FAINT ? 0 : add;
     }
-    if (shift < 0 && shift >= -64) {
-        add = ((exact >> (-shift - 1)) + 1) >> 1;
-    } else if (shift >= 0 && exact != 0) {
-        add = shift < 40 && exact <= QL_CONTRIBUTION_MAX >> shift
-                      ? exact << shift
-                      : QL_CONTRIBUTION_MAX + 1;
+#endif
+    if (add == 0) {
+        add = rounded(value, m, down, key, diag);
     }
     if (add > QL_CONTRIBUTION_MAX) {
         add = QL_CONTRIBUTION_MAX;
@@ -31,6 +62,19 @@ void ql_film_add(
         return;
     }
     *sum += add;
+}
+
+void ql_film_add(ql_sum_t *sum, const ql_uq31_t value[3], ql_real_t scale,
+        uint32_t key, ql_diag_t *diag)
+{
+    /* value m 2^(e - 31 + 24) */
+    const int32_t down = (int32_t)7 - scale.e;
+
+    for (unsigned i = 0; i < 3; i++) {
+        if (value[i] != 0 && scale.m != 0) { /* most surfaces emit nothing */
+            add_channel(&sum->rgb[i], value[i], scale.m, down, key, diag);
+        }
+    }
 }
 
 void ql_film_display(const ql_sum_t *sum, uint32_t samples, ql_real_t exposure,

@@ -20,6 +20,8 @@ typedef struct {
     uint32_t closest_rays;
     uint32_t shadow_rays;
     uint32_t saturated; /* contributions or sums cut at their limit */
+    uint32_t faint;     /* contributions rounded by chance, paths that ended as
+                           their throughput was rounded to zero */
 } ql_diag_t;
 
 #if QL_CFG_DIAG
@@ -31,18 +33,29 @@ typedef struct {
 /* Largest contribution of one sample, and largest sum. */
 #define QL_CONTRIBUTION_MAX ((uint64_t)1 << 39)
 
-/* Add value * scale to a sum, rounded half up.
+/* Contributions below this, 2^-16 radiance units, are rounded by chance. */
+#define QL_FAINT 256u
+
+/* Add value * scale to the sums of a pixel.
  *
- *   sum    u40.24  added to; stays at UINT64_MAX when full
- *   value  uq31    in [0, 2)
+ *   sum    u40.24  added to; a channel stays at UINT64_MAX when full
+ *   value  uq31    in [0, 2), each channel
  *   scale  real    any
- *   diag   -       its saturated is counted up if the contribution was cut at
- *                  QL_CONTRIBUTION_MAX / 2^24 radiance units or the sum is full
+ *   key    -       differs from sample to sample: ql_sampler_key()
+ *   diag   -       its saturated is counted up for each channel that was cut at
+ *                  QL_CONTRIBUTION_MAX / 2^24 radiance units or whose sum is
+ *                  full, its faint for each that was rounded by chance
  *
  * 2^24 samples of the largest contribution fit; nothing wraps.
+ * Error: from QL_FAINT on half a unit of 2^-24, half up: 2^-9 of the
+ *        contribution at most. Below it is rounded up with the chance of what
+ *        is cut off, so however faint light is its mean stays right, unless
+ *        scale is 1 or more, when value has no more bits either. What is below
+ *        2^-32 of 2^-24 adds nothing.
+ * Cost:  a product and a 32-bit shift a channel; if faint a hash more.
  */
-void ql_film_add(
-        uint64_t *sum, ql_uq31_t value, ql_real_t scale, ql_diag_t *diag);
+void ql_film_add(ql_sum_t *sum, const ql_uq31_t value[3], ql_real_t scale,
+        uint32_t key, ql_diag_t *diag);
 
 /* Mean of a pixel, ready for the display.
  *

@@ -253,6 +253,10 @@ static bool arrive(const ql_path_t *path, const way_t *way, const ql_hit_t *hit,
     ql_rgb_filter(&v->reflected, material->albedo);
     if (ql_scene_gloss(scene, material) == NULL &&
             ql_rgb_most(&v->reflected) == 0) {
+        if ((material->albedo[0] | material->albedo[1] | material->albedo[2]) !=
+                0) {
+            QL_DIAG_COUNT(path->diag, faint);
+        }
         return false;
     }
     v->carried = &way->carried;

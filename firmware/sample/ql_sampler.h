@@ -68,6 +68,13 @@ void ql_sampler_start(ql_sampler_t *sampler, uint32_t index);
  */
 ql_uniform2_t ql_sampler_2d(const ql_sampler_t *sampler, uint32_t dim);
 
+/* A number that differs from sample to sample and pixel to pixel, to be hashed
+ * for decisions that no dimension is worth. */
+QL_INLINE uint32_t ql_sampler_key(const ql_sampler_t *sampler)
+{
+    return sampler->key + sampler->index;
+}
+
 /* Draw one number: u1 of the same pair, for less.
  *
  *   sampler, dim  -     as for ql_sampler_2d()

@@ -317,6 +317,7 @@ static void add_sums(
     crc = crc_u32(crc, render.diag.closest_rays);
     crc = crc_u32(crc, render.diag.shadow_rays);
     crc = crc_u32(crc, render.diag.saturated);
+    crc = crc_u32(crc, render.diag.faint);
     (void)snprintf(full, sizeof full, "%s_counts", name);
     add(full, crc);
 }

@@ -14,7 +14,7 @@
 #include "estimate.h"
 #include "lambert.h"
 #include "ql_test.h"
-#include "render/ql_film.h"
+#include "film_add.h"
 #include "sample/ql_sampler.h"
 #include "scene/ql_light.h"
 
@@ -333,10 +333,10 @@ TEST(sobol_samples_have_the_known_mean_with_less_error)
 TEST(dim_light_times_a_large_factor_is_not_cut)
 {
     const ql_real_t factor = {0x80000000u, 20 - 31}; /* 2^20 */
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     uint64_t sum = 0;
 
-    ql_film_add(&sum, 1u << 12, factor, &diag); /* 2^-19 */
+    film_add(&sum, 1u << 12, factor, 0, &diag); /* 2^-19 */
     CHECK(sum == (uint64_t)2 << QL_SUM_BITS && diag.saturated == 0,
             "2^-19 x 2^20 added %g, %lu saturated",
             ldexp((double)sum, -QL_SUM_BITS), (unsigned long)diag.saturated);

@@ -268,7 +268,7 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
 {
     static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
     const ql_settings_t settings = QL_SETTINGS_DEFAULT;
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     const ql_path_t path = {scene, &settings, sampler, sum, &diag};
 
     for (unsigned bounce = 0; bounce <= bounces; bounce++) {

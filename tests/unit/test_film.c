@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "base/ql_settings.h"
+#include "film_add.h"
 #include "ql_stats.h"
 #include "ql_test.h"
-#include "render/ql_film.h"
 
 static const ql_real_t one = {0x80000000u, -31};
 
@@ -35,10 +35,17 @@ static uint64_t contribution(ql_uq31_t value, ql_real_t scale)
 static void check_add(ql_uq31_t value, ql_real_t scale)
 {
     const uint64_t expected = contribution(value, scale);
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     uint64_t sum = 1000;
 
-    ql_film_add(&sum, value, scale, &diag);
+    film_add(&sum, value, scale, 0, &diag);
+    if (expected <= QL_FAINT) { /* of what is rounded by chance: either side */
+        CHECK(sum - 1000 + 1 >= expected && sum - 1000 <= expected + 1,
+                "%08lx * %08lx 2^%d added %llu, not about %llu",
+                (unsigned long)value, (unsigned long)scale.m, scale.e,
+                (unsigned long long)(sum - 1000), (unsigned long long)expected);
+        return;
+    }
     CHECK(sum - 1000 == expected, "%08lx * %08lx 2^%d added %llu, not %llu",
             (unsigned long)value, (unsigned long)scale.m, scale.e,
             (unsigned long long)(sum - 1000), (unsigned long long)expected);
@@ -64,7 +71,67 @@ TEST(contributions_are_rounded_half_up)
             check_add(random_value(&state), scale);
         }
     }
-    NOTE("every scale from 2^-49 to 2^13");
+    NOTE("every scale from 2^-49 to 2^13, from 256 units on");
+}
+
+/* Add the same number with many keys: how far the mean is off, in standard
+ * errors of a number that is rounded up with the chance of its fraction. */
+static double faint_z(double number, ql_uq31_t value, ql_real_t scale)
+{
+    enum { KEYS = 1 << 16 };
+    const double fraction = number - floor(number);
+    ql_diag_t diag = {0};
+    uint64_t sum = 0;
+
+    for (uint32_t i = 0; i < KEYS; i++) {
+        film_add(&sum, value, scale, 0x9e3779b9u * i, &diag);
+    }
+    CHECK(!QL_CFG_DIAG || diag.faint == KEYS, "%g counted %lu", number,
+            (unsigned long)diag.faint);
+    return ((double)sum / KEYS - number) * sqrt(KEYS) /
+           sqrt(fraction * (1 - fraction) + 0x1p-16);
+}
+
+TEST(faint_contributions_keep_their_mean_however_faint_they_are)
+{
+    uint64_t state = 4;
+    double worst = 0;
+    unsigned count = 0;
+
+    for (int down = 32; down < 96; down++) {
+        for (unsigned i = 0; i < 4; i++) {
+            const ql_real_t scale = {
+                    (uint32_t)stats_random(&state) | 0x80000001u,
+                    (int16_t)(7 - down)};
+            /* below QL_FAINT 2^down */
+            const uint32_t value = (uint32_t)stats_random(&state) >>
+                                           (down < 56 ? 56 - down : 0) |
+                                   1u;
+            const double number = ldexp((double)value * (double)scale.m, -down);
+
+            worst = fmax(worst, fabs(faint_z(number, value, scale)));
+            count++;
+        }
+    }
+    CHECK(worst < STATS_Z_MAX, "worst z %.1f", worst);
+    NOTE("%u numbers from 2^-32 to 255 units, worst z %.1f", count, worst);
+}
+
+TEST(faint_contributions_that_are_whole_units_are_exact_and_not_counted)
+{
+    const ql_real_t scale = {0x80000000u, -31 - 16}; /* 2^8 units */
+    ql_diag_t diag = {0};
+
+    for (uint32_t n = 0; n < QL_FAINT; n++) {
+        uint64_t sum = 0;
+
+        for (uint32_t i = 0; i < 64; i++) {
+            film_add(&sum, n << 23, scale, 0x9e3779b9u * i, &diag);
+        }
+        CHECK(sum == 64 * n, "%lu: %llu", (unsigned long)n,
+                (unsigned long long)sum);
+    }
+    CHECK(diag.faint == 0, "counted %lu", (unsigned long)diag.faint);
 }
 
 /* A near emitter has a large scale however dim the surface is. */
@@ -90,10 +157,10 @@ TEST(contributions_beyond_the_limit_are_cut_and_counted)
 
     for (unsigned i = 0; i < 4; i++) {
         const ql_real_t scale = {0xffffffffu, exponents[i]};
-        ql_diag_t diag = {0, 0, 0, 0};
+        ql_diag_t diag = {0};
         uint64_t sum = 5;
 
-        ql_film_add(&sum, QL_UQ31_ONE, scale, &diag);
+        film_add(&sum, QL_UQ31_ONE, scale, 0, &diag);
         CHECK(sum == 5 + QL_CONTRIBUTION_MAX, "2^%d: %llu", exponents[i],
                 (unsigned long long)sum);
         CHECK(!QL_CFG_DIAG || diag.saturated == 1, "2^%d: counted %lu",
@@ -104,10 +171,10 @@ TEST(contributions_beyond_the_limit_are_cut_and_counted)
 TEST(contributions_below_the_limit_are_not_counted)
 {
     const ql_real_t scale = {0xffffffffu, -18}; /* below 2^14 */
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     uint64_t sum = 0;
 
-    ql_film_add(&sum, QL_UQ31_ONE, scale, &diag);
+    film_add(&sum, QL_UQ31_ONE, scale, 0, &diag);
     CHECK(sum < QL_CONTRIBUTION_MAX && diag.saturated == 0, "%llu, counted %lu",
             (unsigned long long)sum, (unsigned long)diag.saturated);
 }
@@ -130,11 +197,11 @@ TEST(a_full_sum_stays_full_and_is_counted)
 {
     for (uint64_t left = 0; left < 3; left++) {
         uint64_t sum = UINT64_MAX - left;
-        ql_diag_t diag = {0, 0, 0, 0};
+        ql_diag_t diag = {0};
         ql_real_t scale = one;
 
         scale.e = -31 - 22; /* 2^-22: four units */
-        ql_film_add(&sum, QL_UQ31_ONE, scale, &diag);
+        film_add(&sum, QL_UQ31_ONE, scale, 0, &diag);
         CHECK(sum == UINT64_MAX, "%llu", (unsigned long long)sum);
         CHECK(!QL_CFG_DIAG || diag.saturated == 1, "counted %lu",
                 (unsigned long)diag.saturated);
@@ -144,11 +211,11 @@ TEST(a_full_sum_stays_full_and_is_counted)
 TEST(the_most_samples_of_the_largest_contribution_fit)
 {
     const ql_real_t huge = {0xffffffffu, 100};
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     uint64_t sum = 0;
 
     for (unsigned long i = 0; i < QL_SPP_MAX; i++) {
-        ql_film_add(&sum, QL_UQ31_ONE, huge, &diag);
+        film_add(&sum, QL_UQ31_ONE, huge, 0, &diag);
     }
     CHECK(sum == QL_CONTRIBUTION_MAX << 24, "%llu", (unsigned long long)sum);
     CHECK(!QL_CFG_DIAG || diag.saturated == QL_SPP_MAX, "counted %lu",
@@ -162,7 +229,7 @@ TEST(sums_do_not_depend_on_the_order)
     static ql_uq31_t value[COUNT];
     static ql_real_t scale[COUNT];
     uint64_t state = 3, forward = 0, backward = 0, parts[7] = {0}, merged = 0;
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
 
     for (unsigned i = 0; i < COUNT; i++) {
         value[i] = random_value(&state);
@@ -172,9 +239,9 @@ TEST(sums_do_not_depend_on_the_order)
     for (unsigned i = 0; i < COUNT; i++) {
         const unsigned j = COUNT - 1 - i;
 
-        ql_film_add(&forward, value[i], scale[i], &diag);
-        ql_film_add(&backward, value[j], scale[j], &diag);
-        ql_film_add(&parts[i % 7], value[i], scale[i], &diag);
+        film_add(&forward, value[i], scale[i], 0, &diag);
+        film_add(&backward, value[j], scale[j], 0, &diag);
+        film_add(&parts[i % 7], value[i], scale[i], 0, &diag);
     }
     for (unsigned i = 0; i < 7; i++) {
         merged += parts[i];
@@ -188,12 +255,12 @@ TEST(sums_do_not_depend_on_the_order)
 TEST(a_sum_of_many_samples_keeps_every_one_of_them)
 {
     const ql_real_t quarter = {0x80000000u, -33};
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     ql_sum_t sum = {{0, 0, 0}};
     ql_uq16_t linear[3];
 
     for (unsigned long i = 0; i < 200000; i++) {
-        ql_film_add(&sum.rgb[0], QL_UQ31_ONE, quarter, &diag);
+        film_add(&sum.rgb[0], QL_UQ31_ONE, quarter, 0, &diag);
     }
     ql_film_display(&sum, 200000, one, linear);
     CHECK(linear[0] == 16384, "mean %lu of 65536", (unsigned long)linear[0]);
@@ -327,6 +394,8 @@ int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_film", argc, argv);
     RUN(contributions_are_rounded_half_up);
+    RUN(faint_contributions_keep_their_mean_however_faint_they_are);
+    RUN(faint_contributions_that_are_whole_units_are_exact_and_not_counted);
     RUN(small_values_of_large_scale_are_not_cut_at_the_limit);
     RUN(contributions_beyond_the_limit_are_cut_and_counted);
     RUN(contributions_below_the_limit_are_not_counted);
