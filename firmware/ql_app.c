@@ -15,13 +15,12 @@ typedef struct {
 /* What a run carries from line to line. */
 typedef struct {
     ql_render_t render;
-    ql_output_t outputs[1 + QL_CFG_PANEL]; /* the stream's; the panel's */
-    uint8_t output_count;
     uint8_t *frame;
     uint32_t ticks;
 #if QL_CFG_PANEL
-    const uint8_t *panel_line; /* what the panel shows of outputs[1] */
     ql_hal_display_t panel;
+    uint8_t *panel_pixels;     /* the picture's line in the panel's format */
+    const uint8_t *panel_line; /* what the panel shows of it */
     place_t x, y;
 #endif
 } run_t;
@@ -60,12 +59,10 @@ static ql_status_t panel_begin(run_t *run, const ql_app_t *app)
     }
     run->x = centre(width, run->panel.width);
     run->y = centre(run->render.settings.height, run->panel.height);
-    run->outputs[1].format = run->panel.format;
-    run->outputs[1].pixels = run->frame + frame_bytes +
-                             QL_LINE_BYTES(run->x.pad, run->panel.format);
+    run->panel_pixels = run->frame + frame_bytes +
+                        QL_LINE_BYTES(run->x.pad, run->panel.format);
     run->panel_line = run->frame + frame_bytes +
                       QL_LINE_BYTES(run->x.crop, run->panel.format);
-    run->output_count = 2;
     for (uint16_t row = 0; row < run->panel.height && status == QL_OK; row++) {
         status = ql_hal_display_write(row, run->frame + frame_bytes);
     }
@@ -79,7 +76,7 @@ static ql_status_t show(const run_t *run, uint16_t y, uint16_t count)
     ql_status_t status = QL_OK;
     uint16_t row;
 
-    if (run->output_count < 2) {
+    if (run->panel.width == 0) {
         return QL_OK;
     }
     for (; count > 0 && status == QL_OK; count--, y++) {
@@ -98,9 +95,6 @@ static ql_status_t show(const run_t *run, uint16_t y, uint16_t count)
 /* Divide the working memory. */
 static ql_status_t set_up(run_t *run, const ql_app_t *app)
 {
-    run->outputs[0].format = QL_FORMAT_RGB888;
-    run->outputs[0].pixels = run->frame + QL_STREAM_PIXELS;
-    run->output_count = 1;
 #if QL_CFG_PANEL
     return panel_begin(run, app);
 #else
@@ -115,11 +109,20 @@ static ql_status_t render_line(run_t *run, uint16_t y, uint16_t rows)
     const uint16_t bytes = (uint16_t)QL_LINE_BYTES(
             run->render.settings.width, QL_FORMAT_RGB888);
     const uint32_t before = ql_hal_ticks();
+    const ql_output_t outputs[] = {
+        {QL_FORMAT_RGB888, run->frame + QL_STREAM_PIXELS},
 #if QL_CFG_PANEL
+        {run->panel.format, run->panel_pixels},
+#endif
+    };
+#if QL_CFG_PANEL
+    const uint8_t count = run->panel.width > 0 ? 2 : 1;
     ql_status_t status;
+#else
+    const uint8_t count = 1;
 #endif
 
-    ql_render_line(&run->render, y, run->outputs, run->output_count);
+    ql_render_line(&run->render, y, outputs, count);
     run->ticks += ql_hal_ticks() - before;
 #if QL_CFG_PANEL
     status = show(run, y, rows);
@@ -205,7 +208,7 @@ static ql_status_t render_picture(run_t *run, const ql_app_t *app)
     if (status == QL_OK) {
         status = ql_hal_serial_write(
                 run->frame, ql_stream_head(run->frame, &run->render.settings,
-                                    run->outputs[0].format));
+                                    QL_FORMAT_RGB888));
     }
     if (status == QL_OK) {
         status = render_lines(run, app->interlace);
@@ -228,7 +231,9 @@ ql_status_t ql_app_run(const ql_app_t *app)
         end.status = render_picture(&run, app);
     }
 
+#if QL_CFG_DIAG
     end.diag = run.render.diag;
+#endif
     end.ticks = run.ticks;
     end.tick_hz = app->tick_hz;
     if (ql_hal_serial_write(run.frame, ql_stream_end(run.frame, &end)) !=

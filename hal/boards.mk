@@ -148,10 +148,7 @@ size-board: $(board_name).elf
 	    END { print name " flash: " flash; print name " ram: " ram }'
 	@stack=$$(tools/stack_report.sh $< $(BOARD_CROSS)objdump \
 	    $(board_ci)) && echo "$(board_rows) stack: $$stack"
-
-# By source file, which link-time optimisation would mix.
-size-files: $(board_name).elf
-	@tools/size_report.sh --files $(board_name).map $(board_name)
+	@tools/size_report.sh $< $(BOARD_CROSS) | sed 's/^/$(board_rows) flash-/'
 
 test-stack: $(board_name).elf build/qlux-recv
 	tests/boards/test_stack.sh $< $$(tools/stack_report.sh $< \
@@ -163,16 +160,10 @@ firmware flash:
 	@echo "$@: needs BOARD=, one of $(BOARDS)" >&2; exit 1
 endif
 
-.PHONY: firmware flash run-board run-emulated size size-board size-files \
-    size-modules test-boards \
+.PHONY: firmware flash run-board run-emulated size size-board test-boards \
     test-stack test-template FORCE
 run-board: ## Render SCENE on an emulated BOARD
 	@$(MAKE) --no-print-directory run-emulated EMULATED=1
-
-size-modules: ## Flash of SCENE on BOARD by source file
-	@$(MAKE) -s --no-print-directory size-files LTO=0 \
-	    VARIANT=-files
-	@$(MAKE) -s --no-print-directory size-board
 
 size: ## Flash, RAM and stack of SCENE on BOARD, or on every board
 	@for board in $(or $(BOARD),$(BOARDS)); do \

@@ -3,32 +3,29 @@
 
 #include "ql_report.h"
 
-static void send(const uint8_t *bytes, uint16_t size)
+static void send(const uint8_t *byte)
 {
-    if (ql_hal_serial_write(bytes, size) != QL_OK) {
+    if (ql_hal_serial_write(byte, 1) != QL_OK) {
         return; /* nowhere else to report to */
     }
 }
 
 void ql_report_text(const char *text)
 {
-    uint16_t size = 0;
-
-    while (text[size] != '\0') {
-        size++;
+    for (; *text != '\0'; text++) {
+        send((const uint8_t *)text);
     }
-    send((const uint8_t *)text, size);
 }
 
 void ql_report_hex(uint32_t value)
 {
-    uint8_t text[11] = {' ', '0', 'x'};
+    ql_report_text(" 0x");
+    for (unsigned i = 0; i < 8; i++, value <<= 4) {
+        const uint8_t digit = (uint8_t)(value >> 28); /* < 16 */
+        const uint8_t text = (uint8_t)(digit + (digit < 10 ? '0' : 'a' - 10));
 
-    for (uint8_t i = 0; i < 8; i++) {
-        const uint8_t digit = (uint8_t)(value >> (28 - 4 * i) & 15u);
-        text[3 + i] = (uint8_t)(digit < 10 ? '0' + digit : 'a' - 10 + digit);
+        send(&text);
     }
-    send(text, sizeof text);
 }
 
 void ql_hal_panic(uint16_t code, uint16_t line)

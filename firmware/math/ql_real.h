@@ -36,11 +36,15 @@ QL_INLINE ql_real_t ql_real_unpack(uint64_t words)
 
 QL_FAST_INLINE uint64_t ql_real_from_u64_packed(uint64_t n)
 {
-    const unsigned shift = ql_clz64(n);
+    int16_t e = 32;
 
-    return shift < 64 ? ql_real_pack((uint32_t)(n << shift >> 32),
-                                (int16_t)(32 - (int16_t)shift))
-                      : 0;
+    if (n == 0) {
+        return 0;
+    }
+    for (; n <= UINT64_MAX / 2; n <<= 1) {
+        e = (int16_t)(e - 1); /* >= 32 - 63 */
+    }
+    return ql_real_pack((uint32_t)(n >> 32), e);
 }
 
 QL_FAST_INLINE uint64_t ql_real_mul_packed(

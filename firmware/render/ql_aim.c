@@ -167,7 +167,7 @@ static ql_vec3_t meet_plane(ql_vec3_t p, ql_vec3_t w, const ql_vec3_t v[3],
     q.x = clamp_to(p.x + stretch(w.x, ratio), v[0].x, v[1].x, v[2].x);
     q.y = clamp_to(p.y + stretch(w.y, ratio), v[0].y, v[1].y, v[2].y);
     q.z = clamp_to(p.z + stretch(w.z, ratio), v[0].z, v[1].z, v[2].z);
-    (void)ql_surface_step(&q, v[0], n);
+    (void)ql_surface_step(&q, &v[0], &n);
     return q;
 }
 

@@ -86,9 +86,9 @@ QL_INLINE uint64_t ql_aim_at_point(const ql_scene_t *scene, uint16_t light,
         point->n.y = -point->n.y;
         point->n.z = -point->n.z;
     }
-    (void)ql_surface_step(&point->q, point->corner, point->n);
+    (void)ql_surface_step(&point->q, &point->corner, &point->n);
     *w = ql_vec_sub(point->q, p);
-    facing = -ql_vec_dot_n(*w, point->n);
+    facing = -ql_vec_dot_n_of(w, &point->n);
     return facing > 0 ? (uint64_t)facing : 0;
 }
 

@@ -38,6 +38,18 @@ static void add_light(const ql_path_t *path, const ql_rgb_t *carried,
             path->sum, value, scale, ql_sampler_key(path->sampler), path->diag);
 }
 
+/* The same of what a material emits. */
+QL_FAST_INLINE void add_emission(const ql_path_t *path, const ql_rgb_t *carried,
+        const ql_blob_material_t *material, ql_real_t scale)
+{
+    ql_uq32_t emission[3];
+
+    for (unsigned i = 0; i < 3; i++) {
+        emission[i] = QL_LE32(material->emission[i]);
+    }
+    add_light(path, carried, emission, scale);
+}
+
 #if QL_CFG_STRATEGIES
 /* h / (1 + h) */
 static ql_real_t share_of(ql_real_t h)
@@ -115,11 +127,10 @@ static void light_point(const ql_path_t *path, const ql_surface_t *surface,
         ql_uniform2_t u)
 {
     ql_light_point_t point;
-    ql_uq32_t emission[3];
     ql_ray_t ray;
     const uint64_t cos_light = ql_aim_at_point(
             path->scene, light, surface->p, u, &point, &ray.direction);
-    const int64_t cos_n = ql_vec_dot_n(ray.direction, surface->n);
+    const int64_t cos_n = ql_vec_dot_n_of(&ray.direction, &surface->n);
     ql_real_t g;
 
     if (cos_n <= 0 || cos_light == 0) {
@@ -136,10 +147,7 @@ static void light_point(const ql_path_t *path, const ql_surface_t *surface,
         g = share_of(g);
     }
 #endif
-    for (unsigned i = 0; i < 3; i++) {
-        emission[i] = QL_LE32(point.material->emission[i]);
-    }
-    add_light(path, reflected, emission, g);
+    add_emission(path, reflected, point.material, g);
 }
 
 #if !POINTS_ONLY
@@ -293,7 +301,6 @@ void ql_direct_seen(const ql_path_t *path, const ql_sight_t *sight,
 {
     const ql_blob_tri_t *tri = path->scene->triangles + hit->tri_idx;
     const ql_blob_material_t *material = ql_scene_material(path->scene, tri);
-    ql_uq32_t emission[3];
 
     if (sight->kind == QL_SIGHT_NONE ||
             (!hit->front && !ql_scene_two_sided(path->scene)) ||
@@ -301,11 +308,8 @@ void ql_direct_seen(const ql_path_t *path, const ql_sight_t *sight,
                     material->emission[2]) == 0) {
         return;
     }
-    for (unsigned i = 0; i < 3; i++) {
-        emission[i] = QL_LE32(material->emission[i]);
-    }
-    add_light(
-            path, carried, emission, share_seen(path, sight, ray, tri, hit->t));
+    add_emission(
+            path, carried, material, share_seen(path, sight, ray, tri, hit->t));
 }
 
 void ql_direct_sky(const ql_path_t *path, const ql_sight_t *sight,

@@ -38,7 +38,6 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
 {
     ql_settings_t s = *settings;
 
-    *render = (ql_render_t){0};
     if (s.width == 0) {
         s.width = QL_LE16(scene->header->image_width);
     }
@@ -51,7 +50,10 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
         return QL_ERR_SETTINGS;
     }
     render->scene = scene;
-    render->settings = s;
+    render->settings = *settings;
+    render->settings.width = s.width;
+    render->settings.height = s.height;
+    render->diag = (ql_diag_t){0};
     render->exposure = ql_film_exposure(
             ql_i16(QL_LE16((uint16_t)scene->header->radiance_exp)),
             ql_i16(QL_LE16((uint16_t)scene->header->exposure_q8)));

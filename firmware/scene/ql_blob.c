@@ -564,8 +564,8 @@ static bool header_in_range(const ql_blob_header_t *h)
 enum { CAMERA, VERTICES, TRIANGLES, PAIRS, MATERIALS, LIGHTS, BASIC_TABLES };
 
 static const struct {
-    uint32_t count_max;
-    uint32_t entry_bytes;
+    unsigned count_max : 24; /* <= QL_VERTEX_MAX < 2^18 */
+    unsigned entry_bytes : 8;
 } basic[BASIC_TABLES] = {{1, sizeof(ql_blob_camera_t)},
         {QL_VERTEX_MAX, sizeof(ql_blob_vertex_t)},
         {QL_TRI_MAX, sizeof(ql_blob_tri_t)},

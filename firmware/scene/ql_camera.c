@@ -7,18 +7,15 @@
 #include "sample/ql_square.h"
 #include "sample/ql_warp.h"
 
-/* The box in s.16 grid units, and how far outside an origin may be: rays from
- * further away cannot hit it, because the origins' plane touches the box and
- * rays spread from there. */
+/* The box in s.16 grid units. */
 #define BOX_MAX_Q16 ((int64_t)QL_GRID_MAX << 16)
-#define FAR_Q16     ((int64_t)1 << 36)
 
-QL_FAST_INLINE int64_t wide_field(const uint32_t words[2])
+static int64_t wide_field(const uint32_t words[2])
 {
     return ql_i64((uint64_t)QL_LE32(words[1]) << 32 | QL_LE32(words[0]));
 }
 
-QL_FAST_INLINE int64_t narrow_field(uint32_t word)
+static int64_t narrow_field(uint32_t word)
 {
     return (int64_t)ql_i32(QL_LE32(word)) * 65536;
 }
@@ -26,30 +23,45 @@ QL_FAST_INLINE int64_t narrow_field(uint32_t word)
 /* A coordinate as the blob has it: base + x right + y up on the plane. */
 enum { BASE, RIGHT, UP, AFFINE };
 
-/* Axis 0..2 of the origin, 3..5 of the direction. */
-static void affine_of(
-        const ql_blob_camera_t *c, unsigned axis, int64_t a[AFFINE])
-{
-    const uint32_t(*const wide[AFFINE])[2] = {c->p, c->pr, c->pu};
-    const uint32_t *const narrow[AFFINE] = {c->d, c->dr, c->du};
+/* p, pr, pu lie in a row, and so do d, dr, du. */
+QL_STATIC_ASSERT(offsetof(ql_blob_camera_t, pu) == 48 &&
+                         offsetof(ql_blob_camera_t, d) == 72 &&
+                         offsetof(ql_blob_camera_t, du) == 96,
+        ql_camera_vectors_in_a_row);
 
+/* Axis 0..2 of the origin, 3..5 of the direction; the latter over 2^down. */
+static void affine_of(const ql_blob_camera_t *c, unsigned axis, unsigned down,
+        int64_t a[AFFINE])
+{
     for (unsigned i = 0; i < AFFINE; i++) {
-        a[i] = axis < 3 ? wide_field(wide[i][axis])
-                        : narrow_field(narrow[i][axis - 3]);
+        const void *const field =
+                (const char *)c +
+                (axis < 3 ? i * sizeof c->p + axis * sizeof c->p[0]
+                          : offsetof(ql_blob_camera_t, d) + i * sizeof c->d +
+                                        (axis - 3) * sizeof c->d[0]);
+
+        if (axis < 3) {
+            a[i] = wide_field(field);
+            continue;
+        }
+        a[i] = narrow_field(*(const uint32_t *)field);
+        for (unsigned n = down; n > 0; n--) {
+            a[i] = ql_asr64(a[i], 1);
+        }
     }
 }
 
 /* Steps per pixel: the picture is 2 high and 2 width/height wide; y points
  * down. Sums stay in 64 bits because ql_camera_init() checked reach_of(). */
 static void axis_init(ql_camera_axis_t *axis, const int64_t a[AFFINE],
-        unsigned down, uint16_t width, uint16_t height)
+        uint16_t width, uint16_t height)
 {
-    const int64_t half_x = ql_div_s64_u16(ql_asr64(a[RIGHT], down), height);
-    const int64_t half_y = ql_div_s64_u16(-ql_asr64(a[UP], down), height);
+    const int64_t half_x = ql_div_s64_u16(a[RIGHT], height);
+    const int64_t half_y = ql_div_s64_u16(-a[UP], height);
 
     axis->right = 2 * half_x;
     axis->down = 2 * half_y;
-    axis->corner = ql_asr64(a[BASE], down) - ql_mul_s64_u16(half_x, width) -
+    axis->corner = a[BASE] - ql_mul_s64_u16(half_x, width) -
                    ql_mul_s64_u16(half_y, height);
 }
 
@@ -93,7 +105,7 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         int64_t a[AFFINE];
         uint64_t r;
 
-        affine_of(scene->camera, k, a);
+        affine_of(scene->camera, k, 0, a);
         r = reach_of(a, width, height);
         reach = r > reach ? r : reach;
     }
@@ -117,7 +129,7 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
     for (unsigned k = 0; k < 6; k++) {
         int64_t a[AFFINE];
 
-        affine_of(scene->camera, k, a);
+        affine_of(scene->camera, k, down, a);
         if (k < 3) {
             uint64_t r = reach_of(a, width, height);
 
@@ -131,7 +143,7 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
                 return false;
             }
         }
-        axis_init(&camera->axes[k], a, k < 3 ? 0 : down, width, height);
+        axis_init(&camera->axes[k], a, width, height);
     }
 #if QL_CFG_LENS
     camera->down = (uint8_t)down; /* <= 15: reach < 2^61 + 2^48 */
@@ -155,15 +167,18 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
 /* step (2^16 of a unit) * u, u in 2^-16: exact floor */
 static int64_t part_of(int64_t step, uint32_t u_q16)
 {
+#if QL_CFG_SMALL
+    /* |step| < 2^63, so the product is below 2^47 2^16 */
+    return ql_asr64(ql_mul_s64_u16(ql_asr64(step, 16), (uint16_t)u_q16), 16);
+#else
     const int32_t high = (int32_t)ql_asr64(step, 32);
     const uint32_t low = ((uint32_t)ql_asr64(step, 16) & 0xffffu) * u_q16 >> 16;
 
-#if !QL_CFG_SMALL
     if (ql_abs32(high) < 32768u) { /* 2^15 grid units a pixel */
         return high * (int32_t)u_q16 + (int32_t)low;
     }
-#endif
     return ql_mul_s64_u16(high, (uint16_t)u_q16) + (int32_t)low;
+#endif
 }
 
 /* Outside the box, in s.16? */
@@ -172,41 +187,41 @@ static bool is_outside(int64_t q16)
     return (uint64_t)q16 > (uint64_t)BOX_MAX_Q16;
 }
 
-/* Parameter at which the ray enters the slab of one axis, as a real; returns
- * false if it never does. */
+/* Parameter at which the ray enters the slab of one axis from outside, as a
+ * real; returns false if it never does. */
 static bool slab_entry(int64_t origin, int32_t direction, ql_real_t *entry)
 {
-    const int64_t outside = origin < 0 ? -origin : origin - BOX_MAX_Q16;
+    int64_t outside = -origin;
 
-    if ((origin < 0) != (direction > 0) || direction == 0) {
+    if (origin >= 0) {
+        outside = origin - BOX_MAX_Q16;
+        direction = -direction;
+    }
+    if (direction <= 0) {
         return false;
     }
     *entry = ql_real_mul(ql_real_from_u64((uint64_t)outside),
-            ql_real_recip(ql_real_from_u64(ql_abs32(direction))));
+            ql_real_recip(ql_real_from_u64((uint32_t)direction)));
     return true;
 }
 
-static bool real_less(ql_real_t a, ql_real_t b)
-{
-    return b.m != 0 && (a.m == 0 || a.e < b.e || (a.e == b.e && a.m < b.m));
-}
-
-/* Move an origin outside the box along the ray to where it enters. */
+/* Move an origin outside the box along the ray to where it enters. Origins are
+ * below 2^47 in size (ql_camera_init()) and a step is below 2^38, so sums fit;
+ * one inside the box stays where it is. */
 static bool enter_box(int64_t origin[3], const int32_t direction[3])
 {
-    ql_real_t entry = {0, 0};
+    ql_real_t entry = {0, INT16_MIN / 2}; /* below any other */
 
     for (unsigned k = 0; k < 3; k++) {
         ql_real_t t;
 
-        if (ql_abs64(origin[k]) > (uint64_t)FAR_Q16) {
-            return false;
-        }
         if (is_outside(origin[k])) {
             if (!slab_entry(origin[k], direction[k], &t)) {
                 return false;
             }
-            entry = real_less(entry, t) ? t : entry;
+            if (t.e > entry.e || (t.e == entry.e && t.m > entry.m)) {
+                entry = t;
+            }
         }
     }
     for (unsigned k = 0; k < 3; k++) {
@@ -214,10 +229,13 @@ static bool enter_box(int64_t origin[3], const int32_t direction[3])
                 ql_real_mul(entry, ql_real_from_u64(ql_abs32(direction[k])));
         int64_t step = 0;
 
-        if (way.m != 0 && way.e > 6) {
+        if (direction[k] == 0) {
+            continue; /* inside, or there was no entry */
+        }
+        if (way.e > 6) {
             return false; /* 2^38 or more: past the box */
         }
-        if (way.m != 0 && way.e > -32) {
+        if (way.e > -32) {
             step = (int64_t)((uint64_t)way.m << 6 >> (6 - way.e));
         }
         origin[k] += direction[k] < 0 ? -step : step;
@@ -268,7 +286,7 @@ bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
     int32_t direction[3];
     const uint32_t right = u.u1 >> 17 << 1 | 1u; /* midpoints, u0.16 */
     const uint32_t below = u.u2 >> 17 << 1 | 1u;
-    bool outside = false;
+    bool outside = QL_CFG_SMALL; /* then enter_box() finds out */
     ql_vec3_t d;
 
     for (unsigned k = 0; k < 6; k++) {

@@ -254,12 +254,20 @@ static ql_uq30_t parameter(uint64_t t, uint64_t det)
 {
     /* det < 2^55 (ql_tri.h), so there are 9 leading zeros or more; t < 4 det
      * needs two of them */
+#if QL_CFG_SMALL
+    for (; det < (uint64_t)1 << 61; det <<= 1) {
+        t <<= 1;
+    }
+#else
     const unsigned up = ql_clz64(det) - 2;
-    const uint32_t det30 = (uint32_t)(det << up >> 32);
-    const uint32_t t30 = (uint32_t)(t << up >> 32);
 
+    det <<= up;
+    t <<= up;
+#endif
     /* 2^63 / (4 det30) = 2^61 / det30, times t30 is t 2^61; >> 32, << 1 */
-    return ql_mulhi_u32(t30, ql_recip_m(det30 << 2)) << 1;
+    return ql_mulhi_u32(
+                   (uint32_t)(t >> 32), ql_recip_m((uint32_t)(det >> 32) << 2))
+           << 1;
 }
 
 /* End the interval at a hit, o_z + t d_z, or a little beyond. */
@@ -370,10 +378,16 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
     unsigned link = scene->root_link, meta = scene->root_meta;
     uint32_t node;
     interval_t axes[3];
-    probe_t begun, p;
+    probe_t p;
+#if QL_CFG_SMALL
+
+    probe_begin(&p, axes, ray, hit == NULL);
+#else
+    probe_t begun;
 
     probe_begin(&begun, axes, ray, hit == NULL);
     p = begun; /* a copy whose address stays here can live in registers */
+#endif
     for (;;) {
         if (meta < 3) {
             /* the far child waits; QL_CFG_BVH_STACK covers the checked depth */

@@ -17,28 +17,29 @@ QL_FAST_INLINE int32_t advance(int32_t d, ql_uq30_t t)
     return d < 0 ? -(int32_t)step : (int32_t)step;
 }
 
-unsigned ql_surface_step(ql_vec3_t *p, ql_vec3_t on, ql_vec3_t n)
+unsigned ql_surface_step(ql_vec3_t *p, const ql_vec3_t *on, const ql_vec3_t *n)
 {
-    const uint32_t ax = ql_abs32(n.x), ay = ql_abs32(n.y), az = ql_abs32(n.z);
+    const uint32_t ax = ql_abs32(n->x), ay = ql_abs32(n->y);
+    const uint32_t az = ql_abs32(n->z);
     ql_vec3_t from_plane;
     int64_t side;
     ql_pos_t *at = &p->z;
-    int32_t size = n.z;
+    int32_t size = n->z;
     unsigned steps = 0;
 
-    from_plane.x = p->x - on.x * (1 << QL_POS_BITS);
-    from_plane.y = p->y - on.y * (1 << QL_POS_BITS);
-    from_plane.z = p->z - on.z * (1 << QL_POS_BITS);
-    side = ql_vec_dot_n_of(&from_plane, &n);
+    from_plane.x = p->x - on->x * (1 << QL_POS_BITS);
+    from_plane.y = p->y - on->y * (1 << QL_POS_BITS);
+    from_plane.z = p->z - on->z * (1 << QL_POS_BITS);
+    side = ql_vec_dot_n_of(&from_plane, n);
     if (side > 0) {
         return 0; /* half of all points */
     }
     if (ax >= ay && ax >= az) {
         at = &p->x;
-        size = n.x;
+        size = n->x;
     } else if (ay >= az) {
         at = &p->y;
-        size = n.y;
+        size = n->y;
     }
     while (side <= 0 && steps < QL_SIDE_STEPS_MAX) {
         *at += size < 0 ? -1 : 1;
@@ -138,11 +139,12 @@ static ql_vec3_t unit_of(int64_t x, int64_t y, int64_t z)
 static void smooth_at(const ql_scene_t *scene, const ql_blob_tri_t *tri,
         const ql_ray_t *ray, bool front, ql_surface_t *surface)
 {
-    const ql_tri_frame_t f = ql_tri_frame(scene, tri, ray->origin);
+    ql_tri_frame_t f;
     ql_vec3_t n0, n1, n2;
     int64_t u, minus_v, w0, w1, w2, det;
     unsigned zeros;
 
+    ql_tri_frame(&f, scene, tri, ray->origin);
     if (!corner_normal(scene, tri, 0, &n0) ||
             !corner_normal(scene, tri, 1, &n1) ||
             !corner_normal(scene, tri, 2, &n2) ||
@@ -203,7 +205,7 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
             hit->front ? &t.e2 : &t.e1);
     surface->inv_n = QL_LE32(tri->inv_n);
     point_at(ray, hit->t, &surface->p);
-    (void)ql_surface_step(&surface->p, t.v0, surface->n);
+    (void)ql_surface_step(&surface->p, &t.v0, &surface->n);
 #if QL_CFG_SMOOTH
     if (scene->normals != NULL) {
         smooth_at(scene, tri, ray, hit->front, surface);
@@ -217,6 +219,8 @@ void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
 {
     const ql_blob_tri_t *tri = scene->triangles + tri_idx;
     const ql_vec3_t zero = {0, 0, 0};
+    const ql_vec3_t back = ql_vec_sub(zero, surface->n);
+    ql_vec3_t corner;
 
     *p = surface->p;
 #if QL_CFG_SPHERES
@@ -227,7 +231,7 @@ void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         return;
     }
 #endif
-    (void)ql_surface_step(
-            p, ql_scene_corner(scene, tri, 0), ql_vec_sub(zero, surface->n));
+    corner = ql_scene_corner(scene, tri, 0);
+    (void)ql_surface_step(p, &corner, &back);
 }
 #endif

@@ -52,6 +52,6 @@ void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
  *   n       -     the plane's exact normal
  *   return  how many steps, 0..QL_SIDE_STEPS_MAX
  */
-unsigned ql_surface_step(ql_vec3_t *p, ql_vec3_t on, ql_vec3_t n);
+unsigned ql_surface_step(ql_vec3_t *p, const ql_vec3_t *on, const ql_vec3_t *n);
 
 #endif

@@ -31,16 +31,13 @@ typedef struct {
     ql_edges_t t; /* grid units */
 } ql_tri_frame_t;
 
-QL_INLINE ql_tri_frame_t ql_tri_frame(
-        const ql_scene_t *scene, const ql_blob_tri_t *tri, ql_vec3_t origin)
+QL_INLINE void ql_tri_frame(ql_tri_frame_t *f, const ql_scene_t *scene,
+        const ql_blob_tri_t *tri, ql_vec3_t origin)
 {
-    ql_tri_frame_t f;
-
-    f.t = ql_scene_edges(scene, tri);
-    f.s.x = origin.x - f.t.v0.x * (1 << QL_POS_BITS);
-    f.s.y = origin.y - f.t.v0.y * (1 << QL_POS_BITS);
-    f.s.z = origin.z - f.t.v0.z * (1 << QL_POS_BITS);
-    return f;
+    f->t = ql_scene_edges(scene, tri);
+    f->s.x = origin.x - f->t.v0.x * (1 << QL_POS_BITS);
+    f->s.y = origin.y - f->t.v0.y * (1 << QL_POS_BITS);
+    f->s.z = origin.z - f->t.v0.z * (1 << QL_POS_BITS);
 }
 
 #if QL_POS_BITS == 0 && !QL_PORT_WIDE_MUL && !QL_CFG_SMALL
@@ -85,7 +82,11 @@ QL_INLINE bool ql_tri_edges(
     *u = qx * f->t.e2.x + qy * f->t.e2.y + qz * f->t.e2.z;
     *minus_v = qx * f->t.e1.x + qy * f->t.e1.y + qz * f->t.e1.z;
 #endif
+#if QL_CFG_SMALL
+    return true; /* ql_tri_hit() asks again */
+#else
     return (*u <= 0 || *minus_v <= 0) && (*u >= 0 || *minus_v >= 0);
+#endif
 }
 
 /* Where the line of a ray crosses a triangle.
@@ -102,10 +103,11 @@ QL_INLINE bool ql_tri_edges(
 QL_INLINE int ql_tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
         const ql_ray_t *ray, uint64_t *det_out, uint64_t *t_out)
 {
-    const ql_tri_frame_t f = ql_tri_frame(scene, tri, ray->origin);
+    ql_tri_frame_t f;
     ql_vec3_t n;
     int64_t u, minus_v, det, limit, t;
 
+    ql_tri_frame(&f, scene, tri, ray->origin);
     if (!ql_tri_edges(&f, ray->direction, &u, &minus_v)) {
         return 0; /* u and v have opposite signs */
     }

@@ -62,6 +62,32 @@ size_of BOARD=microbit SMALL=1
 size_of BOARD=microbit SMALL=1 SCENE=square INDIRECT=none BOUNCES=0
 compare tests/budgets/sizes.txt "$dir/size" bench/size || failed=1
 
+# Every firmware's modules add up to its flash, and little is nobody's.
+awk '
+    !/ flash/ { next }
+    {
+        split($0, a, ": ")
+        firmware = a[1]
+        sub(/ flash.*/, "", firmware)
+    }
+    / flash:/ { flash[firmware] = a[2] }
+    / flash-/ { sum[firmware] += a[2] }
+    / flash-rest:/ { rest[firmware] = a[2] }
+    / flash-.*: -/ || / flash-(math|trace|hal|blob): 0$/ { bad = bad "; " $0 }
+    END {
+        for (firmware in flash) {
+            n++
+            if (sum[firmware] != flash[firmware] || rest[firmware] > 256) {
+                bad = bad "; " firmware ": modules " sum[firmware] + 0 \
+                    ", rest " rest[firmware] + 0 ", flash " flash[firmware]
+            }
+        }
+        if (n == 0) bad = "; no firmware"
+        printf "bench/size modules_add_up_to_the_flash %s\n",
+            bad == "" ? "ok " n " firmwares" : "FAIL " substr(bad, 3)
+        exit bad != ""
+    }' "$dir/size" || failed=1
+
 if $make -s --no-print-directory bench-pc > "$dir/pc" 2>&1; then
     echo "bench/pc both_tracers_hit_the_same_triangles ok"
 else

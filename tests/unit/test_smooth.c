@@ -165,12 +165,14 @@ static bool random_hit(ql_ray_t *ray, ql_hit_t *hit)
 /* The sum of the corner normals with the exact weights, on the seen side. */
 static normal_t interpolated(const ql_ray_t *ray, bool front)
 {
-    const ql_tri_frame_t f = ql_tri_frame(&one.scene, &one.tri, ray->origin);
-    const ql_vec3_t n = ql_vec_cross(f.t.e1, f.t.e2);
+    ql_tri_frame_t f;
+    ql_vec3_t n;
     normal_t sum = {0, 0, 0};
     double det, w[3];
     int64_t u = 0, minus_v = 0;
 
+    ql_tri_frame(&f, &one.scene, &one.tri, ray->origin);
+    n = ql_vec_cross(f.t.e1, f.t.e2);
     (void)ql_tri_edges(&f, ray->direction, &u, &minus_v);
     det = -(double)ql_vec_dot(ray->direction, n) * ONE;
     w[1] = (double)u / det;

@@ -182,7 +182,7 @@ TEST(two_steps_are_always_enough)
         ql_surface_t surface;
         ql_ray_t ray;
         ql_hit_t hit;
-        ql_vec3_t p;
+        ql_vec3_t p, n;
         unsigned steps;
 
         random_hit(&ray, &hit);
@@ -194,7 +194,8 @@ TEST(two_steps_are_always_enough)
               (int32_t)((int64_t)ray.direction.y * hit.t / (1l << 30));
         p.z = ray.origin.z +
               (int32_t)((int64_t)ray.direction.z * hit.t / (1l << 30));
-        steps = ql_surface_step(&p, one.corner[0], turned(hit.front));
+        n = turned(hit.front);
+        steps = ql_surface_step(&p, &one.corner[0], &n);
         count[steps]++;
         CHECK(p.x == surface.p.x && p.y == surface.p.y && p.z == surface.p.z,
                 "triangle %ld: (%ld %ld %ld), not (%ld %ld %ld)", i,
@@ -219,7 +220,7 @@ TEST(a_point_rounded_to_nearest_needs_two_steps_at_most)
 
         random_triangle();
         p = aim();
-        steps = ql_surface_step(&p, one.corner[0], one.n);
+        steps = ql_surface_step(&p, &one.corner[0], &one.n);
         count[steps]++;
         CHECK(steps <= STEPS_MAX && side_of(p, one.n) > 0,
                 "triangle %ld: %u steps", i, steps);
@@ -244,13 +245,14 @@ TEST(points_without_correction_are_rejected)
 
 TEST(steps_stop_at_their_limit_whatever_the_plane)
 {
-    ql_vec3_t p = vec(0, 0, 0);
+    const ql_vec3_t zero = vec(0, 0, 0), x = vec(1, 0, 0);
+    const ql_vec3_t far = vec(32767, 0, 0);
+    ql_vec3_t p = zero;
 
-    CHECK(ql_surface_step(&p, vec(32767, 0, 0), vec(1, 0, 0)) ==
-                    QL_SIDE_STEPS_MAX,
+    CHECK(ql_surface_step(&p, &far, &x) == QL_SIDE_STEPS_MAX,
             "a plane far away");
-    p = vec(0, 0, 0);
-    CHECK(ql_surface_step(&p, vec(0, 0, 0), vec(0, 0, 0)) == QL_SIDE_STEPS_MAX,
+    p = zero;
+    CHECK(ql_surface_step(&p, &zero, &zero) == QL_SIDE_STEPS_MAX,
             "a normal of zero");
 }
 
