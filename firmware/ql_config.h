@@ -19,6 +19,19 @@
 #define QL_CFG_PRECISION 1
 #endif
 
+/* QL_CFG_TABLE_BITS: 5 to 10. Cells of the warps' tables: 2^bits of the sine in
+ * a quarter turn, 3 2^(bits - 1) of the reciprocal square root; 7 bits per cell
+ * of both together: 900 bytes, each bit more doubles that.
+ * QL_CFG_TABLE_LERP: 0 or 1. Refine what they hold, the sine by Taylor's series,
+ * the root by Newton's method; with 0 the nearest entry must do. Then directions
+ * are off by up to 2^-bits, which is a bias: make trade measures it. */
+#ifndef QL_CFG_TABLE_BITS
+#define QL_CFG_TABLE_BITS 7
+#endif
+#ifndef QL_CFG_TABLE_LERP
+#define QL_CFG_TABLE_LERP 1
+#endif
+
 /* QL_CFG_NODE16, QL_CFG_NODE8: 0 or 1. Which BVH node widths are built in; at
  * least one. The second one costs 2,900 bytes of code on a Cortex-M0 (-Os). */
 #ifndef QL_CFG_NODE16
@@ -164,6 +177,12 @@
 #error "QL_CFG_PRECISION: use 0 (draft) or 1 (fine)"
 #endif
 
+#if QL_CFG_TABLE_BITS < 5 || QL_CFG_TABLE_BITS > 10
+#error "QL_CFG_TABLE_BITS: use 5 to 10"
+#endif
+#if QL_CFG_TABLE_LERP != 0 && QL_CFG_TABLE_LERP != 1
+#error "QL_CFG_TABLE_LERP: use 0 or 1"
+#endif
 #if QL_CFG_NODE16 != 0 && QL_CFG_NODE16 != 1
 #error "QL_CFG_NODE16: use 0 or 1"
 #endif

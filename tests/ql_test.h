@@ -59,6 +59,9 @@ static struct {
 
 #define RUN(claim) ql_test_run(#claim, test_##claim)
 
+/* A claim that is not true of every build: of which, the condition says. */
+#define RUN_IF(condition, claim) ((condition) ? RUN(claim) : (void)0)
+
 #define TEST_END() (ql_test.failed > 0 ? 1 : 0)
 
 static void ql_test_failed(

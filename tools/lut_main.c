@@ -32,25 +32,28 @@ static double srgb(double x)
     return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
 }
 
+/* QL_CFG_TABLE_BITS of the table being written. */
+static unsigned bits;
+
 static long sin_entry(unsigned i)
 {
     const double pi = 3.14159265358979323846;
 
-    if (i == 0 || i == QL_SIN_CELLS) { /* exact, and no tie in sight */
+    if (i == 0 || i == 1u << bits) { /* exact, and no tie in sight */
         return i == 0 ? 0 : 1L << 30;
     }
     return round_far_from_tie(
-            ldexp(sin(pi / 2 * (double)i / QL_SIN_CELLS), 30));
+            ldexp(sin(ldexp(pi / 2 * (double)i, -(int)bits)), 30));
 }
 
-/* round(2^15 / sqrt(m)), m = (2 i + 129) / 512: the largest v with
- * (2v - 1)^2 m <= 2^32, that is (2v - 1)^2 (2 i + 129) <= 2^41. */
+/* round(2^15 / sqrt(m)), m = (2 i + 2^bits + 1) / 2^(bits + 2): the largest v
+ * with (2v - 1)^2 m <= 2^32. */
 static long rsqrt_entry(unsigned i)
 {
-    const uint64_t m = 2u * i + 2 * QL_RSQRT_CELLS / 3 + 1;
+    const uint64_t m = 2u * i + (1u << bits) + 1;
     uint64_t v = 32768;
 
-    while ((2 * v + 1) * (2 * v + 1) * m <= (uint64_t)1 << 41) {
+    while ((2 * v + 1) * (2 * v + 1) * m <= (uint64_t)1 << (34 + bits)) {
         v++;
     }
     return (long)v;
@@ -100,8 +103,8 @@ static double sin_error(void)
     const double pi = 3.14159265358979323846;
     double worst = 0;
 
-    for (unsigned i = 0; i <= QL_SIN_CELLS; i++) {
-        const double exact = sin(pi / 2 * (double)i / QL_SIN_CELLS);
+    for (unsigned i = 0; i <= 1u << bits; i++) {
+        const double exact = sin(ldexp(pi / 2 * (double)i, -(int)bits));
         worst = fmax(worst, fabs(ldexp((double)sin_entry(i), -30) - exact));
     }
     return worst;
@@ -111,8 +114,8 @@ static double rsqrt_error(void)
 {
     double worst = 0;
 
-    for (unsigned i = 0; i < 64 * QL_RSQRT_CELLS; i++) {
-        const double m = (64.0 + (i + 0.5) / 64) / 256;
+    for (unsigned i = 0; i < 96u << bits; i++) {
+        const double m = ldexp((i + 0.5) / 64, -(int)bits - 1) + 0.25;
         const double t = ldexp((double)rsqrt_entry(i / 64), -15);
         worst = fmax(worst, fabs(t * sqrt(m) - 1));
     }
@@ -173,43 +176,65 @@ typedef struct {
     const char *type;
     const char *name;
     const char *size;
-    unsigned count;
+    unsigned count; /* if the table has bits: times 2^bits / 2 and plus */
+    unsigned plus;
+    bool has_bits; /* of QL_CFG_TABLE_BITS */
     long (*entry)(unsigned);
     double (*error)(void);
     const char *about;
 } table_t;
 
 static const table_t tables[] = {
-        {"int32_t", "ql_lut_sin", "QL_SIN_CELLS + 1", QL_SIN_CELLS + 1,
-                sin_entry, sin_error,
+        {"int32_t", "ql_lut_sin", "QL_SIN_CELLS + 1", 2, 1, true, sin_entry,
+                sin_error,
                 "sine of a quarter turn, s1.30. Worst error %.2e, absolute."},
-        {"uint16_t", "ql_lut_rsqrt", "QL_RSQRT_CELLS", QL_RSQRT_CELLS,
-                rsqrt_entry, rsqrt_error,
+        {"uint16_t", "ql_lut_rsqrt", "QL_RSQRT_CELLS", 3, 0, true, rsqrt_entry,
+                rsqrt_error,
                 "1/sqrt, u1.15. Worst error %.2e over a cell, relative."},
-        {"uint16_t", "ql_lut_recip", "QL_RECIP_CELLS", QL_RECIP_CELLS,
+        {"uint16_t", "ql_lut_recip", "QL_RECIP_CELLS", QL_RECIP_CELLS, 0, false,
                 recip_entry, recip_error,
                 "1/m, u1.15. Worst error %.2e over a cell, relative."},
         {"uint16_t", "ql_lut_srgb", "QL_SRGB_OCTAVES * QL_SRGB_STEPS + 1",
-                QL_SRGB_OCTAVES *QL_SRGB_STEPS + 1, srgb_entry, srgb_error,
+                QL_SRGB_OCTAVES *QL_SRGB_STEPS, 1, false, srgb_entry,
+                srgb_error,
                 "sRGB curve, u8.8. Worst error %.2e of 255, interpolated."},
-        {"uint32_t", "ql_lut_log2", "QL_RECIP_CELLS", QL_RECIP_CELLS,
+        {"uint32_t", "ql_lut_log2", "QL_RECIP_CELLS", QL_RECIP_CELLS, 0, false,
                 log2_entry, log2_error,
                 "log2 of the reciprocals, u0.32. Worst error %.2e, absolute."},
-        {"uint32_t", "ql_lut_exp2", "QL_EXP2_CELLS", QL_EXP2_CELLS, exp2_entry,
-                exp2_error,
+        {"uint32_t", "ql_lut_exp2", "QL_EXP2_CELLS", QL_EXP2_CELLS, 0, false,
+                exp2_entry, exp2_error,
                 "1 - 2^-x for x in [0, 1), u0.32. Worst error %.2e, absolute."},
 };
 
-static void write_table(FILE *file, const table_t *table)
+static void write_entries(FILE *file, const table_t *table)
 {
-    fprintf(file, "\n/* ");
+    const unsigned count =
+            (table->has_bits ? table->count << bits >> 1 : table->count) +
+            table->plus;
+
+    fprintf(file, "/* ");
     fprintf(file, table->about, table->error());
     fprintf(file, " */\nconst %s %s[%s] = {", table->type, table->name,
             table->size);
-    for (unsigned i = 0; i < table->count; i++) {
+    for (unsigned i = 0; i < count; i++) {
         fprintf(file, "%s%ld,", i % 6 == 0 ? "\n    " : " ", table->entry(i));
     }
     fprintf(file, "\n};\n");
+}
+
+static void write_table(FILE *file, const table_t *table)
+{
+    fputs("\n", file);
+    if (!table->has_bits) {
+        write_entries(file, table);
+        return;
+    }
+    for (bits = 5; bits <= 10; bits++) {
+        fprintf(file, "#%s QL_CFG_TABLE_BITS == %u\n",
+                bits == 5 ? "if" : "elif", bits);
+        write_entries(file, table);
+    }
+    fputs("#endif\n", file);
 }
 
 static const char help[] =

@@ -10,12 +10,12 @@
 #include "base/ql_base.h"
 
 /* sin(i / QL_SIN_CELLS quarter turns), s1.30, both ends included. */
-#define QL_SIN_BITS  7
+#define QL_SIN_BITS  QL_CFG_TABLE_BITS
 #define QL_SIN_CELLS (1 << QL_SIN_BITS)
 extern const int32_t ql_lut_sin[QL_SIN_CELLS + 1];
 
-/* 1/sqrt(m) at the middle of 192 cells of m in [1/4, 1), u1.15. */
-#define QL_RSQRT_CELLS 192
+/* 1/sqrt(m) at the middle of each of these cells of m in [1/4, 1), u1.15. */
+#define QL_RSQRT_CELLS (3 << (QL_CFG_TABLE_BITS - 1))
 extern const uint16_t ql_lut_rsqrt[QL_RSQRT_CELLS];
 
 /* 1/m at the middle of 128 cells of m in [1/2, 1), u1.15. */

@@ -44,13 +44,16 @@ uint32_t ql_recip_m(uint32_t m)
     return r < 0x80000000u ? r << 1 : 0xffffffffu;
 }
 
-uint32_t ql_rsqrt_m(uint32_t m)
+/* The table's entry and some steps of Newton's method. */
+QL_INLINE uint32_t rsqrt(uint32_t m, unsigned steps)
 {
-    /* r = 2^47 / sqrt(m) in u0.32; the table's index is the top 8 bits. */
-    uint32_t r = (uint32_t)ql_lut_rsqrt[(m >> 24) - QL_RSQRT_CELLS / 3] << 16;
+    /* r = 2^47 / sqrt(m) in u0.32; the index is the top bits + 1 bits */
+    uint32_t r = (uint32_t)ql_lut_rsqrt[(m >> (31 - QL_CFG_TABLE_BITS)) -
+                                        QL_RSQRT_CELLS / 3]
+                 << 16;
 
     QL_ASSERT(m >= 0x40000000u);
-    for (unsigned i = 0; i <= QL_CFG_PRECISION; i++) {
+    for (unsigned i = 0; i < steps; i++) {
         /* y = m r^2 / 2^64 is near 2^30; r' = r (3 2^30 - y) / 2^31. */
         const uint32_t y = ql_mulhi_u32(ql_mulhi_u32(r, r), m);
         const uint32_t next = ql_mulhi_u32(r, 0xc0000000u - y);
@@ -59,6 +62,18 @@ uint32_t ql_rsqrt_m(uint32_t m)
     }
     return r;
 }
+
+uint32_t ql_rsqrt_m(uint32_t m)
+{
+    return rsqrt(m, 1 + QL_CFG_PRECISION + (QL_CFG_TABLE_BITS < 7));
+}
+
+#if !(QL_CFG_TABLE_LERP && QL_CFG_TABLE_BITS >= 7)
+uint32_t ql_rsqrt_warp_m(uint32_t m)
+{
+    return rsqrt(m, QL_CFG_TABLE_LERP ? 1 + QL_CFG_PRECISION : 0);
+}
+#endif
 
 ql_real_t ql_real_times(ql_real_t a, ql_real_t b)
 {
@@ -151,7 +166,7 @@ ql_uq32_t ql_sqrt_uq32(ql_uq32_t x)
     }
     /* sqrt(m) = m / sqrt(m); m = x 2^shift in [1/4, 1) */
     m = x << shift;
-    root = ql_mulhi_u32(m, ql_rsqrt_m(m)); /* half of sqrt(m): < 2^31 */
+    root = ql_mulhi_u32(m, ql_rsqrt_warp_m(m)); /* sqrt(m) / 2: < 2^31 */
     return root < 0x80000000u ? root << 1 >> (shift / 2)
                               : 0xffffffffu >> (shift / 2);
 }

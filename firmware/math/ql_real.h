@@ -112,10 +112,24 @@ uint32_t ql_recip_m(uint32_t m);
  *           2^32 itself is cut to 2^32 - 1, and the error may reach below 2^31
  *
  * Error: at most 2^-15 (draft) or 2^-28 (fine), relative.
- * Cost:  one look-up, four multiplications (draft) or seven (fine).
+ * Cost:  one look-up, four multiplications (draft) or seven (fine); three more
+ *        if QL_CFG_TABLE_BITS is below 7.
  * From:  Newton's method, r' = r (3 - m r r) / 2, once or twice.
  */
 uint32_t ql_rsqrt_m(uint32_t m);
+
+/* The same as warps use it, by the user's choice of tables.
+ *
+ * Error: with h = 2^-(QL_CFG_TABLE_BITS + 1), that of an entry, 1.5 h^2 (draft)
+ *        or 3.4 h^4 (fine), or that of ql_rsqrt_m() if it is more; without
+ *        QL_CFG_TABLE_LERP h.
+ * Cost:  one look-up, four multiplications (draft), seven (fine), or none.
+ */
+#if QL_CFG_TABLE_LERP && QL_CFG_TABLE_BITS >= 7
+#define ql_rsqrt_warp_m(m) ql_rsqrt_m(m)
+#else
+uint32_t ql_rsqrt_warp_m(uint32_t m);
+#endif
 
 #if QL_CFG_SMALL
 QL_FAST_INLINE uint64_t ql_real_recip_packed(uint32_t m, int16_t e)
@@ -192,7 +206,7 @@ ql_real_t ql_real_sqrt(ql_real_t a);
  *   x       u0.32
  *   return  u0.32, cut below 1
  *
- * Error: relative, that of ql_rsqrt_m() and 2 ulp; exact for 0.
+ * Error: relative, that of ql_rsqrt_warp_m() and 2 ulp; exact for 0.
  */
 ql_uq32_t ql_sqrt_uq32(ql_uq32_t x);
 

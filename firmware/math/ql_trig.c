@@ -17,11 +17,14 @@ void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
     const int32_t s0 = ql_lut_sin[cell];
     const int32_t c0 = ql_lut_sin[QL_SIN_CELLS - cell];
 
-    /* rest 2 pi / 2^32 rad, scaled by 2^36: |delta| < pi 2^(36 - 9) < 2^29.
+    int32_t s = s0, c = c0;
+
+#if QL_CFG_TABLE_LERP
+    /* rest 2 pi / 2^32 rad, scaled by 2^36: |rest| <= 2^24, |delta| < pi 2^29.
      * 0xc90fdaa2 is 2 pi 2^29. */
     const int32_t delta = ql_mulhi_su32(rest * 128, 0xc90fdaa2u);
     const uint32_t adelta = ql_abs32(delta);
-    int32_t s, c, ds, dc;
+    int32_t ds, dc;
 
 #if QL_CFG_PRECISION > 0
     /* s + d (c - d s / 2), c - d (s + d c / 2): s1.30 times 2^36 is 2^66, the
@@ -38,6 +41,9 @@ void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
     ds = ql_asr32(ql_mulhi_su32(sc, adelta) + 8, 4);
     s = delta < 0 ? s0 - dc : s0 + dc;
     c = delta < 0 ? c0 + ds : c0 - ds;
+#else
+    (void)rest;
+#endif
 
     /* Quadrants: near counts cells of the whole turn. */
     switch (near >> QL_SIN_BITS & 3u) {

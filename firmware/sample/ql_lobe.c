@@ -23,7 +23,7 @@ static ql_real_t real_of(uint32_t m, int16_t e)
 }
 
 /* Square root of a in [0, 1), u0.32, cut below 1. Relative error that of
- * ql_rsqrt_m() and 3 ulp. */
+ * ql_rsqrt_warp_m() and 3 ulp. */
 static ql_uq32_t root(ql_real_t a)
 {
     const unsigned shift = (unsigned)(-32 - a.e); /* a = m 2^-32 2^-shift */
@@ -33,7 +33,7 @@ static ql_uq32_t root(ql_real_t a)
     if (a.m == 0 || shift > 62) {
         return 0;
     }
-    half = ql_mulhi_u32(m, ql_rsqrt_m(m)); /* sqrt(m 2^-32) 2^31 */
+    half = ql_mulhi_u32(m, ql_rsqrt_warp_m(m)); /* sqrt(m 2^-32) 2^31 */
     half = half < 0x80000000u ? half << 1 : 0xffffffffu;
     return half >> (shift / 2);
 }

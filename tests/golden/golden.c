@@ -32,10 +32,21 @@
 #include "sample/ql_square.h"
 #include "sample/ql_warp.h"
 
-#if QL_CFG_PRECISION == 0
-#define PRECISION "draft"
+/* Other tables are other pictures: two choices have checksums. */
+#if QL_CFG_TABLE_BITS == 7 && QL_CFG_TABLE_LERP
+#define TABLES ""
+#elif QL_CFG_TABLE_BITS == 5 && !QL_CFG_TABLE_LERP
+#define TABLES "-nearest-5"
+#elif QL_CFG_TABLE_BITS == 10 && QL_CFG_TABLE_LERP
+#define TABLES "-lerp-10"
 #else
-#define PRECISION "fine"
+#error "no checksums for this QL_CFG_TABLE_BITS and QL_CFG_TABLE_LERP"
+#endif
+
+#if QL_CFG_PRECISION == 0
+#define PRECISION "draft" TABLES
+#else
+#define PRECISION "fine" TABLES
 #endif
 
 enum { SIZE = 32, ENTRIES_MAX = 1024, NAME_MAX_BYTES = 64, SCENES_MAX = 8 };

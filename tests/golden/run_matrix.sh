@@ -20,6 +20,8 @@ warn='-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef'
 warn="$warn -Wmissing-prototypes -Werror"
 failed=0
 ran=0
+nearest='-DQL_CFG_TABLE_BITS=5 -DQL_CFG_TABLE_LERP=0'
+lerp='-DQL_CFG_TABLE_BITS=10 -DQL_CFG_TABLE_LERP=1'
 
 mkdir -p "$out"
 for bits in 16 8; do
@@ -27,7 +29,8 @@ for bits in 16 8; do
         --node-bits "$bits" --quiet || exit 1
 done
 # one scene for each feature, and what they are called
-blobs="$out/cornell16.qlb $out/cornell8.qlb"
+cornell="$out/cornell16.qlb $out/cornell8.qlb"
+blobs=$cornell
 for scene in glossy sky lens smooth strategies; do
     build/qlux-scene "tests/scenes/$scene.scene" -o "$out/$scene.qlb" \
         --quiet 2> "$out/$scene.log" || exit 1
@@ -42,11 +45,15 @@ build()
         -o "$out/$1"
 }
 
-# run NAME RUNNER MODE
+# run NAME RUNNER MODE: of other tables the Cornell box will do
 run()
 {
+    case $1 in
+    *-nearest-* | *-lerp-*) set -- "$@" "$cornell" ;;
+    *) set -- "$@" "$blobs" ;;
+    esac
     # shellcheck disable=SC2086
-    $2 "$out/$1" "$3" "$sums" $blobs
+    $2 "$out/$1" "$3" "$sums" $4
 }
 
 # config NAME RUNNER COMPILER FLAGS: both precisions
@@ -76,8 +83,16 @@ config()
 
 if [ "$only" = --update ]; then
     for number in 0 1; do
-        build "update-$number" "${CC:-cc}" "-O2 -DQL_CFG_PRECISION=$number" &&
-            run "update-$number" '' update || exit 1
+        for name in update update-nearest-5 update-lerp-10; do
+            case $name in
+            *-nearest-5) tables=$nearest ;;
+            *-lerp-10) tables=$lerp ;;
+            *) tables= ;;
+            esac
+            build "$name-" "${CC:-cc}" \
+                "-O2 -DQL_CFG_PRECISION=$number $tables" &&
+                run "$name-" '' update || exit 1
+        done
     done
     echo "$sums: $(wc -l < "$sums") checksums"
     exit 0
@@ -93,6 +108,14 @@ config clang-halves '' clang '-O2 -DQL_PORT_WIDE_MUL=0'
 # 32-bit words. The multilib package does not bring <asm/errno.h> along.
 config gcc-i386 '' gcc \
     "-m32 -O2 -isystem /usr/include/$(gcc -print-multiarch)"
+
+# Coarse tables and long ones.
+config gcc-nearest-5 '' gcc "-O2 $nearest"
+config clang-nearest-5 '' clang "-O2 $nearest"
+config gcc-lerp-10 '' gcc "-O2 $lerp"
+config clang-lerp-10 '' clang "-Os $lerp"
+config powerpc-nearest-5 qemu-ppc powerpc-linux-gnu-gcc-12 \
+    "-static -O2 $nearest"
 
 # The other byte order.
 config powerpc qemu-ppc powerpc-linux-gnu-gcc-12 '-static -O2'

@@ -6,13 +6,13 @@
 #include "math/ql_real.h"
 #include "ql_nasty.h"
 #include "ql_stats.h"
+#include "ql_table_error.h"
 #include "ql_test.h"
 
 /* Odd, so the mantissas that are tried differ in all their low bits. */
 enum { STRIDE = 61 };
 
-#define ULP         (1 / 4294967296.0) /* of u0.32 */
-#define RSQRT_ERROR (QL_CFG_PRECISION == 0 ? 0x1p-15 : 0x1p-28)
+#define ULP (1 / 4294967296.0) /* of u0.32 */
 
 /* ---- Mantissas --------------------------------------------------------- */
 
@@ -89,7 +89,7 @@ static void check_sqrt(uint32_t x)
     const double error = fabs(r * ULP - exact);
 
     sqrt_worst = fmax(sqrt_worst, error);
-    CHECK(error <= exact * RSQRT_ERROR + 2 * ULP,
+    CHECK(error <= exact * WARP_ROOT_ERROR + 2 * ULP,
             "ql_sqrt_uq32(%08lx) = %08lx, off by %.3g", (unsigned long)x,
             (unsigned long)r, error);
 }

@@ -7,9 +7,10 @@
 #include "math/ql_trig.h"
 #include "ql_nasty.h"
 #include "ql_stats.h"
+#include "ql_table_error.h"
 #include "ql_test.h"
 
-#define BOUND (QL_CFG_PRECISION == 0 ? 2.0e-5 : 4.2e-8)
+#define BOUND SINE_ERROR
 #define ONE   (1l << 30)
 
 static const double turn_rad = 6.283185307179586 / 4294967296.0;
