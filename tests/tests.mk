@@ -18,7 +18,8 @@ support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
     firmware/*.c) $(addprefix tools/,cli.c image.c png.c deflate.c sums.c \
     develop.c) $(filter-out %_main.c,$(wildcard tools/scene/*.c))
 # It renders every feature, so it needs a core that has every one.
-reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c))
+reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c)) \
+    tests/known/rounding.c
 support_of = $(support) $(if $(filter fine draft,$(1:-san=)),$(reference))
 
 # Under configuration $(1): the core, what tests share, and every test.
@@ -93,6 +94,7 @@ test: ## Run everything, on this PC and on every emulated board
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) test-all
 
 test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
+    build/mesh.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san) $(jobs_configs))
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
@@ -103,11 +105,16 @@ test-quick: $(programs) build/cornell.qlb $(quick) ## Unit and tool tests on thi
 
 answers := $(call programs_of,$(jobs_known))
 
-test-known: build/cornell.qlb $(answers) ## Pictures whose answer is known
+test-known: build/cornell.qlb build/mesh.qlb $(answers) ## Pictures whose answer is known
 	$(call run,$(jobs_known))
 
 test-san: $(call programs_of,$(jobs_san)) build/cornell.qlb ## Unit and tool tests under ASan and UBSan
 	$(call run,$(jobs_san))
+
+budget := $(foreach c,draft fine,build/test/$(c)/known/known_budget)
+
+error-budget: build/cornell.qlb build/mesh.qlb $(budget) ## Error of every stage against double, as DESIGN.md has it
+	@for program in $(budget); do $$program --table || exit; echo; done
 
 test-mutants: ## Plant faults in the core, one by one: a test has to see each
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) \
@@ -128,5 +135,5 @@ docs: ## Bring the generated file lists up to date
 golden-update: ## Rewrite the checksums of the golden pictures
 	tests/golden/run_matrix.sh --update
 
-.PHONY: test test-all test-quick test-known test-san test-mutants lint check \
-    format docs golden-update
+.PHONY: test test-all test-quick test-known test-san test-mutants error-budget \
+    lint check format docs golden-update

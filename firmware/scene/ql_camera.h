@@ -55,7 +55,8 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
 /* The ray through a point of a pixel, entering the box of the scene.
  *
  *   pixel   -     from ql_camera_pixel()
- *   u       uq32  where in the pixel: right and down from its corner
+ *   u       uq32  where in the pixel: right and down from its corner; the
+ *                 top 15 bits of each count, as midpoints
  *   lens    uq32  where on the lens; not used without one
  *   ray     -     out; its origin only if true is returned
  *   return  false if the ray misses the box [0, 32767]^3; its direction is that

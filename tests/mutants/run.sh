@@ -404,7 +404,7 @@ case ${1:-} in
 --needs)
     killers $(names) | awk '
         { print "build/test/" $1 "/" $2 }
-        END { print "build/cornell.qlb" }' | sort -u
+        END { print "build/cornell.qlb\nbuild/mesh.qlb" }' | sort -u
     ;;
 -*) sed -n '/^# usage/,/^# Example/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 '') count run_all ;;

@@ -54,6 +54,10 @@ typedef struct {
     ref_vec_t lens_p[2], lens_d[2]; /* if there is a lens */
     double sky[3];                  /* if it is constant */
     double unit;                    /* one radiance unit, in units of Ke */
+
+    /* ref_parts.h: what happens to exact results; NULL, as it is unless set:
+     * nothing */
+    const struct ref_rounding *rounding;
 } ref_scene_t;
 
 typedef struct {

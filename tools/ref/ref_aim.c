@@ -23,17 +23,21 @@ double ref_light_chance(
 
 /* ---- Triangles ---------------------------------------------------------- */
 
-static bool aim_point(const ref_shape_t *shape, bool two_sided,
+static bool aim_point(const ref_scene_t *scene, const ref_shape_t *shape,
         const ref_surface_t *surface, double u1, double u2, ref_aim_t *aim)
 {
+    const ref_rounding_t *rounding = scene->rounding;
     ref_vec_t to;
     double b1, b2, facing;
 
     ref_warp_triangle(u1, u2, &b1, &b2);
     to = ref_along(ref_along(shape->corner, shape->e1, b1), shape->e2, b2);
     to = ref_sub(to, surface->p);
+    if (rounding != NULL && rounding->light_point != NULL) {
+        rounding->light_point(rounding->data, surface, shape, u1, u2, &to);
+    }
     facing = -ref_dot(to, shape->n); /* 2 area cos' r */
-    facing = two_sided ? fabs(facing) : facing;
+    facing = scene->blob->two_sided ? fabs(facing) : facing;
     aim->distance = ref_length(to);
     aim->w = ref_scale(to, 1 / aim->distance);
     aim->inverse = facing / (2 * pow(aim->distance, 3));
@@ -137,7 +141,7 @@ static bool aim_ball(const ref_shape_t *shape, uint32_t index, bool two_sided,
         const ref_vec_t towards = ref_unit(ref_sub(shape->corner, surface->p));
         const double s_max = cone_of(shape, square);
 
-        aim->w = ref_warp_about(towards, u1 * s_max, u2);
+        aim->w = ref_warp_about(NULL, towards, u1 * s_max, u2);
         aim->inverse = 2 * REF_PI * s_max;
     } else {
         aim->w = ref_warp_cosine(surface->shade, u1, u2);
@@ -297,7 +301,7 @@ static bool aim_shape(const ref_scene_t *scene, unsigned direct, uint32_t index,
             return done != 0;
         }
     }
-    return aim_point(shape, two_sided, surface, u1, u2, aim);
+    return aim_point(scene, shape, surface, u1, u2, aim);
 }
 
 bool ref_aim(const ref_scene_t *scene, unsigned direct, uint32_t light,

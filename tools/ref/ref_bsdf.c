@@ -58,9 +58,11 @@ static ref_vec_t facing(const ref_bsdf_t *bsdf)
     return s->smooth && ref_dot(bsdf->in, s->shade) >= 0 ? s->n : s->shade;
 }
 
-void ref_bsdf_begin(ref_bsdf_t *bsdf, const ref_surface_t *surface,
-        const ref_material_t *material, bool front, ref_vec_t incoming)
+void ref_bsdf_begin(ref_bsdf_t *bsdf, const struct ref_rounding *rounding,
+        const ref_surface_t *surface, const ref_material_t *material,
+        bool front, ref_vec_t incoming)
 {
+    bsdf->rounding = rounding;
     bsdf->surface = surface;
     bsdf->material = material;
     bsdf->front = front;
@@ -124,7 +126,8 @@ static bool sample_lobe(
     const double z = pow(ref_midpoint(u.u1), 1 / (n + 1));
     double cosine;
 
-    sample->direction = ref_warp_about(bsdf->axis, 1 - z, ref_midpoint(u.u2));
+    sample->direction =
+            ref_warp_about(NULL, bsdf->axis, 1 - z, ref_midpoint(u.u2));
     cosine = ref_cosine(bsdf->surface, sample->direction);
     set_weight(sample, bsdf->material->specular,
             cosine * lobe_ratio(bsdf) / chance);
@@ -132,18 +135,42 @@ static bool sample_lobe(
     return cosine > 0;
 }
 
+/* As ref_warp_cosine(), step by step. */
+static ref_vec_t rounded_cosine(const ref_rounding_t *rounding,
+        const ref_surface_t *surface, double u1, double u2)
+{
+    ref_vec_t n = surface->shade, v = ref_warp_sphere(u1, u2);
+
+    if (rounding->normal != NULL) {
+        rounding->normal(rounding->data, surface, &n);
+    }
+    if (rounding->sphere != NULL) {
+        rounding->sphere(rounding->data, u1, u2, &v);
+    }
+    v = ref_add(n, v);
+    if (rounding->direction != NULL) {
+        rounding->direction(rounding->data, surface, n, &v);
+    }
+    return ref_unit(v);
+}
+
 /* A direction whose density knows of no lobe but the diffuse one; *factor is
  * cos/pi over the density. */
-static bool draw_direction(const ref_surface_t *surface, ql_indirect_t density,
+static bool draw_direction(const ref_bsdf_t *bsdf, ql_indirect_t density,
         ql_uniform2_t u, ref_bsdf_sample_t *sample, double *factor)
 {
+    const ref_surface_t *surface = bsdf->surface;
     const double u1 = ref_midpoint(u.u1), u2 = ref_midpoint(u.u2);
 
     if (density == QL_INDIRECT_UNIFORM) {
-        sample->direction = ref_warp_about(surface->shade, 1 - u1, u2);
+        sample->direction =
+                ref_warp_about(bsdf->rounding, surface->shade, 1 - u1, u2);
         *factor = 2 * u1;
     } else {
-        sample->direction = ref_warp_cosine(surface->shade, u1, u2);
+        sample->direction =
+                bsdf->rounding != NULL
+                        ? rounded_cosine(bsdf->rounding, surface, u1, u2)
+                        : ref_warp_cosine(surface->shade, u1, u2);
         sample->pdf = ref_dot(sample->direction, surface->shade) / REF_PI;
         *factor = 1;
     }
@@ -156,7 +183,7 @@ static bool sample_diffuse(const ref_bsdf_t *bsdf, ql_indirect_t density,
     double factor;
 
     if (is_black(bsdf->material->albedo) ||
-            !draw_direction(bsdf->surface, density, u, sample, &factor)) {
+            !draw_direction(bsdf, density, u, sample, &factor)) {
         return false;
     }
     set_weight(sample, bsdf->material->albedo, factor);
@@ -169,7 +196,7 @@ static bool sample_both(const ref_bsdf_t *bsdf, ql_indirect_t density,
 {
     double factor, lobe;
 
-    if (!draw_direction(bsdf->surface, density, u, sample, &factor)) {
+    if (!draw_direction(bsdf, density, u, sample, &factor)) {
         return false;
     }
     lobe = lobe_density(bsdf, sample->direction) * REF_PI * lobe_ratio(bsdf);
@@ -224,19 +251,16 @@ static double balanced(double part, double chance, bool mis)
 }
 
 void ref_bsdf_reflect(const ref_bsdf_t *bsdf, ref_vec_t w, double inverse,
-        bool mis, double r[3])
+        bool mis, double *diffuse, double *lobe)
 {
     const ref_material_t *m = bsdf->material;
     const double cosine = ref_cosine(bsdf->surface, w);
     const double chance = m->kind != 0 ? chance_of(m) : 0;
-    const double diffuse = balanced(cosine / REF_PI * inverse, 1 - chance, mis);
-    double lobe = 0;
 
+    *diffuse = balanced(cosine / REF_PI * inverse, 1 - chance, mis);
+    *lobe = 0;
     if (m->kind == QL_GLOSS_PHONG) {
-        lobe = balanced(lobe_density(bsdf, w) * inverse, chance, mis) * cosine *
-               lobe_ratio(bsdf);
-    }
-    for (unsigned k = 0; k < 3; k++) {
-        r[k] = m->albedo[k] * diffuse + m->specular[k] * lobe;
+        *lobe = balanced(lobe_density(bsdf, w) * inverse, chance, mis) *
+                cosine * lobe_ratio(bsdf);
     }
 }

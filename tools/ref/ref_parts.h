@@ -34,6 +34,8 @@ typedef struct {
     uint32_t shape;
 } ref_surface_t;
 
+struct ref_rounding; /* below; NULL: results stay exact */
+
 /* The nearest shape along a ray; of equals the lowest index. */
 bool ref_closest(
         const ref_scene_t *scene, const ref_ray_t *ray, ref_hit_t *hit);
@@ -57,7 +59,8 @@ ref_vec_t ref_warp_disk(double u1, double u2); /* z is 0 */
 void ref_warp_triangle(double u1, double u2, double *b1, double *b2);
 
 /* The direction with 1 - cos = s about an axis, azimuth u2 turns. */
-ref_vec_t ref_warp_about(ref_vec_t axis, double s, double u2);
+ref_vec_t ref_warp_about(const struct ref_rounding *rounding, ref_vec_t axis,
+        double s, double u2);
 
 /* About a unit normal, proportional to the cosine: unit. */
 ref_vec_t ref_warp_cosine(ref_vec_t n, double u1, double u2);
@@ -75,6 +78,7 @@ bool ref_warp_spherical(const ref_vec_t corner[3], double u1, double u2,
 /* ---- How surfaces reflect ----------------------------------------------- */
 
 typedef struct {
+    const struct ref_rounding *rounding;
     const ref_surface_t *surface;
     const ref_material_t *material;
     ref_vec_t in;   /* unit direction that came */
@@ -89,8 +93,9 @@ typedef struct {
     bool delta, through;
 } ref_bsdf_sample_t;
 
-void ref_bsdf_begin(ref_bsdf_t *bsdf, const ref_surface_t *surface,
-        const ref_material_t *material, bool front, ref_vec_t incoming);
+void ref_bsdf_begin(ref_bsdf_t *bsdf, const struct ref_rounding *rounding,
+        const ref_surface_t *surface, const ref_material_t *material,
+        bool front, ref_vec_t incoming);
 
 bool ref_bsdf_has_delta(const ref_bsdf_t *bsdf);
 bool ref_bsdf_has_spread(const ref_bsdf_t *bsdf);
@@ -99,9 +104,10 @@ bool ref_bsdf_has_spread(const ref_bsdf_t *bsdf);
 bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density, bool delta,
         uint32_t pick, ql_uniform2_t u, ref_bsdf_sample_t *sample);
 
-/* f cos inverse, each lobe by the balance heuristic with mis. */
+/* f cos inverse of each lobe for an albedo, a specular colour of 1, by the
+ * balance heuristic with mis. */
 void ref_bsdf_reflect(const ref_bsdf_t *bsdf, ref_vec_t w, double inverse,
-        bool mis, double r[3]);
+        bool mis, double *diffuse, double *lobe);
 
 /* Cosine to the shading normal; 0 if w is not above both normals. */
 double ref_cosine(const ref_surface_t *surface, ref_vec_t w);
@@ -131,5 +137,54 @@ double ref_aim_inverse(const ref_scene_t *scene, const ref_surface_t *surface,
 
 /* Radiance of the sky; zero if there is none. */
 void ref_sky(const ref_scene_t *scene, ref_vec_t w, double emission[3]);
+
+/* ---- What a test may do to exact results -------------------------------- */
+
+/* Each function is called with the exact result of a stage and may change it,
+ * as the core's rounding of that stage does: tests/known/known_budget.c. Any
+ * may be NULL. They are for diffuse surfaces and lights that are triangles,
+ * drawn by points; other estimators pass them by. Vectors are in grid units. */
+typedef struct ref_rounding {
+    void *data; /* the first argument of each */
+
+    /* The ray of a sample of pixel x, y. */
+    void (*camera)(void *data, uint16_t x, uint16_t y,
+            const ql_sampler_t *sampler, ref_ray_t *ray);
+
+    /* The surface at a hit: where it is. */
+    void (*point)(void *data, const ref_ray_t *ray, const ref_hit_t *hit,
+            ref_surface_t *surface);
+
+    /* The unit normal about which directions are drawn. */
+    void (*normal)(void *data, const ref_surface_t *surface, ref_vec_t *n);
+
+    /* The other two axes of a frame. */
+    void (*frame)(void *data, ref_vec_t axis, ref_vec_t *right, ref_vec_t *up);
+
+    /* A uniform point of the unit sphere. */
+    void (*sphere)(void *data, double u1, double u2, ref_vec_t *v);
+
+    /* n plus that point: a direction of any length. */
+    void (*direction)(void *data, const ref_surface_t *surface, ref_vec_t n,
+            ref_vec_t *w);
+
+    /* From a surface to a point of a light, a triangle. */
+    void (*light_point)(void *data, const ref_surface_t *surface,
+            const ref_shape_t *shape, double u1, double u2, ref_vec_t *to);
+
+    /* 1 / (pdf chance): the geometry term, but for the surface's cosine. */
+    void (*geometry)(void *data, const ref_surface_t *surface,
+            const ref_aim_t *aim, double *inverse);
+
+    /* Throughput times albedo or emission. */
+    void (*product)(void *data, double carried, double by, double *product);
+
+    /* A contribution as it is added to a sum. */
+    void (*contribution)(void *data, double *light);
+
+    /* Changes nothing: told what each ray met, a shape or REF_NOWHERE; of a ray
+     * towards a light 1 if it is blocked, 0 if not. */
+    void (*met)(void *data, uint32_t what);
+} ref_rounding_t;
 
 #endif

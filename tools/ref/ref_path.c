@@ -46,11 +46,43 @@ static double largest(const double rgb[3])
     return fmax(rgb[0], fmax(rgb[1], rgb[2]));
 }
 
+/* carried by something, as rounded. */
+static double product(const path_t *path, double carried, double by)
+{
+    const ref_rounding_t *rounding = path->scene->rounding;
+    double result = carried * by;
+
+    if (rounding != NULL && rounding->product != NULL) {
+        rounding->product(rounding->data, carried, by, &result);
+    }
+    return result;
+}
+
+/* Add to a channel. */
+static void put(path_t *path, unsigned k, double light)
+{
+    const ref_rounding_t *rounding = path->scene->rounding;
+
+    if (rounding != NULL && rounding->contribution != NULL) {
+        rounding->contribution(rounding->data, &light);
+    }
+    path->rgb[k] += light;
+}
+
 static void add(path_t *path, const double carried[3], const double value[3],
         double scale)
 {
     for (unsigned k = 0; k < 3; k++) {
-        path->rgb[k] += carried[k] * value[k] * scale;
+        put(path, k, product(path, carried[k], value[k]) * scale);
+    }
+}
+
+static void tell(const path_t *path, uint32_t what)
+{
+    const ref_rounding_t *rounding = path->scene->rounding;
+
+    if (rounding != NULL && rounding->met != NULL) {
+        rounding->met(rounding->data, what);
     }
 }
 
@@ -99,11 +131,36 @@ static bool follow(path_t *path, const way_t *way, ref_hit_t *hit)
 {
     path->stats->closest_rays++;
     if (!ref_closest(path->scene, &way->ray, hit)) {
+        tell(path, REF_NOWHERE);
         see_sky(path, way);
         return false;
     }
+    tell(path, hit->shape);
     see_shape(path, way, hit);
     return true;
+}
+
+/* Add what a vertex reflects of the light from a direction. */
+static void reflect(
+        path_t *path, const vertex_t *v, const ref_aim_t *aim, double inverse)
+{
+    const ref_rounding_t *rounding = path->scene->rounding;
+    const ref_material_t *material = v->bsdf.material;
+    double diffuse, lobe;
+
+    if (rounding != NULL && rounding->geometry != NULL) {
+        rounding->geometry(rounding->data, &v->surface, aim, &inverse);
+    }
+    ref_bsdf_reflect(&v->bsdf, aim->w, inverse,
+            path->settings->direct == QL_DIRECT_MIS, &diffuse, &lobe);
+    for (unsigned k = 0; k < 3; k++) {
+        const double albedo = product(path, v->carried[k], material->albedo[k]);
+        const double specular = v->carried[k] * material->specular[k];
+
+        put(path, k,
+                product(path, albedo, aim->emission[k]) * diffuse +
+                        specular * aim->emission[k] * lobe);
+    }
 }
 
 /* One sample of one light. */
@@ -112,7 +169,7 @@ static void ask(path_t *path, uint32_t dim, const vertex_t *v, uint32_t light)
     const ql_settings_t *s = path->settings;
     const ql_uniform2_t u =
             ql_sampler_2d(&path->sampler, dim + QL_DIM_LIGHT_POINT);
-    double reflected[3];
+    bool blocked;
     ref_aim_t aim;
     ref_ray_t ray;
 
@@ -125,16 +182,12 @@ static void ask(path_t *path, uint32_t dim, const vertex_t *v, uint32_t light)
     } else {
         path->stats->shadow_rays++;
     }
-    if (ref_blocked(path->scene, &ray, aim.distance, aim.shape)) {
-        return;
+    blocked = ref_blocked(path->scene, &ray, aim.distance, aim.shape);
+    tell(path, blocked);
+    if (!blocked) {
+        reflect(path, v, &aim,
+                aim.inverse / ref_light_chance(path->scene, s, light));
     }
-    ref_bsdf_reflect(&v->bsdf, aim.w,
-            aim.inverse / ref_light_chance(path->scene, s, light),
-            s->direct == QL_DIRECT_MIS, reflected);
-    for (unsigned k = 0; k < 3; k++) {
-        reflected[k] *= aim.emission[k];
-    }
-    add(path, v->carried, reflected, 1);
 }
 
 static bool aims(const path_t *path)
@@ -184,7 +237,7 @@ static bool draw(const path_t *path, const vertex_t *v, ql_indirect_t density,
     }
     way->ray = ref_leave(&v->surface, sample.direction, sample.through);
     for (unsigned k = 0; k < 3; k++) {
-        way->carried[k] = v->carried[k] * sample.weight[k];
+        way->carried[k] = product(path, v->carried[k], sample.weight[k]);
     }
     way->delta = sample.delta;
     way->sight = SEES_ALL;
@@ -291,8 +344,8 @@ static bool arrive(const path_t *path, const way_t *way, const ref_hit_t *hit,
     }
     v->dim = QL_DIM_BOUNCE(bounce);
     ref_surface_at(path->scene, &way->ray, hit, &v->surface);
-    ref_bsdf_begin(
-            &v->bsdf, &v->surface, material, hit->front, way->ray.direction);
+    ref_bsdf_begin(&v->bsdf, path->scene->rounding, &v->surface, material,
+            hit->front, way->ray.direction);
     return true;
 }
 
@@ -355,6 +408,10 @@ void ref_pixel(const ref_scene_t *scene, const ql_settings_t *settings,
                 1 - 2 * (y + ref_midpoint(u.u2)) / settings->height,
                 ref_warp_disk(
                         ref_midpoint(on_lens.u1), ref_midpoint(on_lens.u2)));
+        if (scene->rounding != NULL && scene->rounding->camera != NULL) {
+            scene->rounding->camera(
+                    scene->rounding->data, x, y, &path.sampler, &way.ray);
+        }
         trace(&path, &way);
     }
 }

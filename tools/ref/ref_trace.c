@@ -226,6 +226,9 @@ void ref_surface_at(const ref_scene_t *scene, const ref_ray_t *ray,
     } else {
         surface_of_triangle(shape, hit, surface);
     }
+    if (scene->rounding != NULL && scene->rounding->point != NULL) {
+        scene->rounding->point(scene->rounding->data, ray, hit, surface);
+    }
 }
 
 ref_ray_t ref_leave(

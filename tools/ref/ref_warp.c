@@ -29,17 +29,21 @@ void ref_warp_triangle(double u1, double u2, double *b1, double *b2)
     *b2 = u1 < u2 ? u2 - u1 / 2 : u2 / 2;
 }
 
-ref_vec_t ref_warp_about(ref_vec_t axis, double s, double u2)
+ref_vec_t ref_warp_about(const struct ref_rounding *rounding, ref_vec_t axis,
+        double s, double u2)
 {
     /* the frame of Duff et al., as ql_frame_from_normal() takes its signs */
     const double sign = axis.z < 0 ? -1 : 1;
     const double a = 1 / (1 + fabs(axis.z));
-    const ref_vec_t right = {
+    ref_vec_t right = {
             1 - axis.x * axis.x * a, -axis.x * axis.y * a, -sign * axis.x};
-    const ref_vec_t up = {-sign * axis.x * axis.y * a,
+    ref_vec_t up = {-sign * axis.x * axis.y * a,
             sign * (1 - axis.y * axis.y * a), -axis.y};
     const double rho = sqrt(s * (2 - s)), phi = 2 * REF_PI * u2;
 
+    if (rounding != NULL && rounding->frame != NULL) {
+        rounding->frame(rounding->data, axis, &right, &up);
+    }
     return ref_along(
             ref_along(ref_scale(right, rho * cos(phi)), up, rho * sin(phi)),
             axis, 1 - s);
