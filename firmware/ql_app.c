@@ -95,6 +95,9 @@ static ql_status_t show(const run_t *run, uint16_t y, uint16_t count)
 /* Divide the working memory. */
 static ql_status_t set_up(run_t *run, const ql_app_t *app)
 {
+    if ((QL_CFG_FORMATS >> QL_FORMAT_RGB888 & 1) == 0) {
+        return QL_ERR_SETTINGS;
+    }
 #if QL_CFG_PANEL
     return panel_begin(run, app);
 #else

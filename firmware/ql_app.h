@@ -42,7 +42,8 @@ typedef struct {
  *
  *   app     -  what to do, and the memory to do it in
  *   return  QL_OK, or the first error, which the last frame carries too:
- *           QL_ERR_SETTINGS  a setting is out of range, or work is too small
+ *           QL_ERR_SETTINGS  a setting is out of range, work is too small, or
+ *                            QL_CFG_FORMATS lacks the stream's, RGB888
  *           QL_ERR_STOPPED   the user asked; the lines sent so far are good
  *           QL_ERR_DISPLAY, QL_ERR_SERIAL  the HAL failed
  *           any status of ql_blob_open()

@@ -37,7 +37,6 @@ void *box_scene(size_t *size)
     m.width = 64;
     m.height = 48;
     m.radiance_exp = 4;
-    m.node_bits = QL_CFG_NODE16 ? 16 : 8;
     add(&m, floor_quad, 0.8, 0);
     add(&m, back_quad, 0.7, 0);
     add(&m, left_quad, 0.6, 0);

@@ -25,7 +25,7 @@ void mini_begin(mini_scene_t *m)
 {
     memset(m, 0, sizeof *m);
     m->width = m->height = 1;
-    m->node_bits = 16;
+    m->node_bits = MINI_BITS_MAX;
     m->leaf_max = 4;
     m->light_weight_scale = 1;
     mini_eye(m, 16384, 16384, 16384);
@@ -467,6 +467,7 @@ static void sort(mini_scene_t *m, unsigned first, unsigned count, unsigned axis)
     }
 }
 
+/* As deep as the core's stack allows; leaves are larger then. */
 static node_t build(
         mini_scene_t *m, unsigned first, unsigned count, unsigned level)
 {
@@ -474,7 +475,10 @@ static node_t build(
     node_t node = {first, 3 + count, box};
     unsigned axis = 0;
 
-    if (count <= m->leaf_max) {
+    if (count <= m->leaf_max || level == QL_CFG_BVH_STACK) {
+        if (count > (m->node_bits == 8 ? QL_LEAF_MAX - 1 : QL_LEAF_MAX)) {
+            give_up("the tree is too deep");
+        }
         return node;
     }
     for (unsigned k = 1; k < 3; k++) {
@@ -665,6 +669,12 @@ static uint32_t radiance_q32(const mini_scene_t *m, double radiance)
     return (uint32_t)(ldexp(radiance, 32 - m->radiance_exp) + 0.5);
 }
 
+/* Without QL_CFG_LIGHTS nothing shines. */
+static double emitted(const mini_material_t *material, int k)
+{
+    return QL_CFG_LIGHTS ? material->emission[k] : 0;
+}
+
 /* Those that are more than diffuse come first. Returns how many. */
 static unsigned order_materials(writer_t *w)
 {
@@ -701,7 +711,7 @@ static void put_materials(writer_t *w)
             put(w, q31(at->albedo[k]), 4);
         }
         for (int k = 0; k < 3; k++) {
-            put(w, radiance_q32(w->m, at->emission[k]), 4);
+            put(w, radiance_q32(w->m, emitted(at, k)), 4);
         }
     }
 }
@@ -736,6 +746,9 @@ static double gray(const double rgb[3])
  * sphere around the scene. */
 static double power_of(const mini_scene_t *m, unsigned i)
 {
+    if (!QL_CFG_LIGHTS) {
+        return 0;
+    }
     if (i < m->triangle_count) {
         return twice_area(m, i) *
                gray(m->materials[m->triangles[i].material].emission);

@@ -10,7 +10,9 @@
  *     mini_eye(&m, x, y, z);
  *     ... mini_open(&m, &scene) ...
  *
- * Anything a scene cannot hold ends the program. */
+ * Anything a scene cannot hold ends the program. In a build without
+ * QL_CFG_LIGHTS emitters do not shine; a tree is no deeper than
+ * QL_CFG_BVH_STACK. */
 
 #ifndef MINI_SCENE_H
 #define MINI_SCENE_H
@@ -24,6 +26,10 @@
 #define MINI_TEXELS_MAX    4096
 #define MINI_TABLES_MAX    8
 #define MINI_WORDS_MAX     8192
+
+/* Bits of the nodes that are built in: from .. to .., in steps of 8. */
+#define MINI_BITS_MIN (QL_CFG_NODE8 ? 8u : 16u)
+#define MINI_BITS_MAX (QL_CFG_NODE16 ? 16u : 8u)
 
 /* A triangle, or a sphere if sphere is not 0: vertex[0] is its index. */
 typedef struct {
@@ -42,7 +48,7 @@ typedef struct {
     ql_blob_camera_t camera;
     uint16_t width, height; /* px; 1 by 1 unless set */
     int radiance_exp;       /* 0 unless set; emission stays below 2^this */
-    unsigned node_bits;     /* 16 or 8; 16 unless set */
+    unsigned node_bits;     /* 16 or 8; the most built in unless set */
     unsigned leaf_max;      /* triangles, 1 to 13; 4 unless set */
     bool two_sided;         /* emitters */
 

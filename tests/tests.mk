@@ -1,16 +1,18 @@
 # tests.mk - build every test, write the list of jobs, run them side by side
 #
 # A configuration (tests/configs) is the core with one set of gates; unit tests
-# run against each of them, known answers against the two precisions. Sanitizers
-# are configurations of their own.
+# run against each of them, everything else against the two precisions, fine and
+# draft. Sanitizers are configurations of their own.
 
 include $(wildcard tests/configs/*.mk)
-configs := $(sort $(basename $(notdir $(wildcard tests/configs/*.mk))))
+configs := $(patsubst config_%,%,$(sort $(filter config_%,$(.VARIABLES))))
 sanitize := -fsanitize=address,undefined -fno-sanitize-recover=all
 config_fine-san := $(config_fine) $(sanitize)
 config_draft-san := $(config_draft) $(sanitize)
 
-test_flags := -Werror -O2 -g
+# The many others are compiled for unit tests only, and in less time.
+full := fine draft fine-san draft-san
+test_flags = -Werror $(if $(filter $(full),$(1)),-O2 -g,-O1 -g0)
 test_hdr := $(wildcard tests/*.h tests/*/*.h tools/*.h tools/scene/*.h \
     tools/ref/*.h sim/*.h)
 support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
@@ -20,13 +22,15 @@ support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
 # It renders every feature, so it needs a core that has every one.
 reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c)) \
     tests/known/rounding.c
-support_of = $(support) $(if $(filter fine draft,$(1:-san=)),$(reference))
+support_unit := $(wildcard tests/*.c) sim/sim_hal.c sim/sim_fault.c \
+    $(wildcard firmware/*.c) tools/cli.c tools/scene/build_table.c
+support_of = $(if $(filter $(full),$(1)),$(support) $(reference),$(support_unit))
 
 # Under configuration $(1): the core, what tests share, and every test.
-define config_rules
+define rules_of
 build/test/$(1)/%.o: %.c $(core_hdr) $(test_hdr)
 	@mkdir -p $$(@D)
-	$$(CC) $$(HOST) $(test_flags) -Isim -Itests/known -Itests/bench \
+	$$(CC) $$(HOST) $(call test_flags,$(1)) -Isim -Itests/known -Itests/bench \
 	    $(config_$(1)) -c $$< -o $$@
 
 build/test/$(1)/core.a: $(core_src:%.c=build/test/$(1)/%.o)
@@ -39,10 +43,10 @@ build/test/$(1)/support.a: $(patsubst %.c,build/test/$(1)/%.o,$(call \
 build/test/$(1)/%: build/test/$(1)/tests/%.o build/test/$(1)/support.a \
     build/test/$(1)/core.a
 	@mkdir -p $$(@D)
-	$$(CC) $(config_$(1)) $(test_flags) $$^ $$(filter %/support.a,$$^) \
+	$$(CC) $(config_$(1)) $(call test_flags,$(1)) $$^ $$(filter %/support.a,$$^) \
 	    -o $$@ -lm -lpthread
 endef
-$(foreach c,$(configs) fine-san draft-san,$(eval $(call config_rules,$(c))))
+$(foreach c,$(configs) fine-san draft-san,$(eval $(call rules_of,$(c))))
 .SECONDARY:
 
 unit := $(patsubst tests/%.c,%,$(wildcard tests/unit/test_*.c))
@@ -59,9 +63,12 @@ jobs_quick := $(call in,fine,$(unit) $(tool) $(extreme)) \
     $(call in,draft,$(unit) $(extreme))
 jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool) \
     $(extreme)))
-# unit_NAME is those of a configuration that not all can run in.
-jobs_configs := $(foreach c,$(filter-out fine draft,$(configs)),$(call \
-    in,$(c),$(or $(unit_$(c)),$(unit))))
+# Of programs that come out the same, byte for byte, one runs: known once built.
+programs_configs := $(foreach c,$(filter-out $(full),$(configs)),$(addprefix \
+    build/test/$(c)/,$(unit)))
+jobs_gates := configs/triples|tests/configs/test_gates.sh --triples; \
+    configs/gates|tests/configs/test_gates.sh;
+jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
 jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/test_scene.sh; \
@@ -95,7 +102,8 @@ test: ## Run everything, on this PC and on every emulated board
 
 test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
     build/mesh.qlb \
-    $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san) $(jobs_configs))
+    $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
+    $(programs_configs)
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
 quick := $(call programs_of,$(jobs_quick)) build/test/fine/tools/stream_main
@@ -116,6 +124,9 @@ budget := $(foreach c,draft fine,build/test/$(c)/known/known_budget)
 error-budget: build/cornell.qlb build/mesh.qlb $(budget) ## Error of every stage against double, as DESIGN.md has it
 	@for program in $(budget); do $$program --table || exit; echo; done
 
+test-configs: $(programs_configs) ## Unit tests with every pair of gates, the core with every triple
+	$(call run,$(jobs_configs))
+
 test-mutants: ## Plant faults in the core, one by one: a test has to see each
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) \
 	    $$(tests/mutants/run.sh --needs)
@@ -129,11 +140,14 @@ check: lint test ## What must pass before a commit
 format: ## Format every C file
 	tools/check_format.sh --write
 
+configs-update: ## Rewrite the configurations of tests/configs/gates.txt
+	tests/configs/test_gates.sh --write
+
 docs: ## Bring the generated file lists up to date
 	tools/check_docs.sh --write
 
 golden-update: ## Rewrite the checksums of the golden pictures
 	tests/golden/run_matrix.sh --update
 
-.PHONY: test test-all test-quick test-known test-san test-mutants error-budget \
-    lint check format docs golden-update
+.PHONY: test test-all test-quick test-known test-san test-configs test-mutants \
+    error-budget lint check format configs-update docs golden-update

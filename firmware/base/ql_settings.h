@@ -59,9 +59,11 @@ typedef struct {
 #endif
 } ql_settings_t;
 
+/* Sobol points and 4 bounces, or what there is of them in the build. */
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \
-        .spp = 16, .bounces = 4, .sampler = QL_SAMPLER_SOBOL,                  \
+        .spp = 16, .bounces = QL_CFG_INDIRECT ? 4 : 0,                         \
+        .sampler = QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM, \
         .direct = QL_DIRECT_AREA, .indirect = QL_INDIRECT_BRDF,                \
         .lights = QL_LIGHTS_POWER, .light_samples = 1                          \
     }

@@ -5,6 +5,3 @@ config_least := -DQL_CFG_PRECISION=0 -DQL_CFG_NODE8=0 -DQL_CFG_PAGES=0 \
     -DQL_CFG_STRATEGIES=0 -DQL_CFG_DIAG=0 -DQL_CFG_INDIRECT=0 \
     -DQL_CFG_ADAPTIVE=0 -DQL_CFG_SAMPLERS=2 -DQL_CFG_FORMATS=1 \
     -DQL_CFG_PANEL=0 -DQL_CFG_SMALL=1
-# Their scenes have what this leaves out: indirect light, both widths of nodes.
-unit_least = $(filter-out $(addprefix unit/test_,adaptive api app blob \
-    bvh),$(unit))

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/ql_crc.h"
+#include "built.h"
 #include "mini_scene.h"
 #include "ql_stats.h"
 #include "ql_test.h"
@@ -50,9 +51,8 @@ static void build(unsigned node_bits)
     (QL_CFG_SMOOTH && QL_CFG_PHONG && QL_CFG_MIRROR && QL_CFG_GLASS &&         \
             QL_CFG_SPHERES && QL_CFG_SKY_MAP && QL_CFG_LENS)
 
-#if ALL
-/* A room with everything there is: spheres, smooth triangles, each material, a
- * map of the sky, a table of three dimensions, a lens. */
+/* A room with everything that is built in: spheres, smooth triangles, each
+ * material, a map of the sky, a table of three dimensions, a lens. */
 static void build_all(unsigned node_bits)
 {
     static const int32_t balls[4][4] = {{2000000, 2000000, 5000000, 900000},
@@ -76,18 +76,29 @@ static void build_all(unsigned node_bits)
     white = mini_material(&mini, 0.7, 0);
     lamp = mini_material(&mini, 0.2, 0.9);
     material[0] = mini_material(&mini, 0.3, 0);
-    mini_gloss(&mini, material[0], QL_GLOSS_PHONG, 0.5, 20.5);
     material[1] = mini_material(&mini, 0.1, 0);
-    mini_gloss(&mini, material[1], QL_GLOSS_MIRROR, 0.8, 0);
     material[2] = mini_material(&mini, 0, 0);
-    mini_gloss(&mini, material[2], QL_GLOSS_GLASS, 0.9, 1.5);
     material[3] = lamp;
+    if (QL_CFG_PHONG) {
+        mini_gloss(&mini, material[0], QL_GLOSS_PHONG, 0.5, 20.5);
+    }
+    if (QL_CFG_MIRROR) {
+        mini_gloss(&mini, material[1], QL_GLOSS_MIRROR, 0.8, 0);
+    }
+    if (QL_CFG_GLASS) {
+        mini_gloss(&mini, material[2], QL_GLOSS_GLASS, 0.9, 1.5);
+    }
     for (int i = 0; i < 4; i++) {
         const double normal[3] = {0.2 * i - 0.3, 0.1 * i, -0.9};
+        const uint16_t vertex =
+                mini_vertex(&mini, quad[i][0], quad[i][1], quad[i][2]);
 
-        (void)mini_sphere(&mini, balls[i], balls[i][3], material[i]);
-        mini_normal(&mini,
-                mini_vertex(&mini, quad[i][0], quad[i][1], quad[i][2]), normal);
+        if (QL_CFG_SPHERES) {
+            (void)mini_sphere(&mini, balls[i], balls[i][3], material[i]);
+        }
+        if (QL_CFG_SMOOTH) {
+            mini_normal(&mini, vertex, normal);
+        }
     }
     mini_face(&mini, 0, 2, 1, white);
     mini_face(&mini, 0, 3, 2, material[0]);
@@ -96,14 +107,21 @@ static void build_all(unsigned node_bits)
         rgb[i][1] = i % 5 ? 0.1 : 0;
         rgb[i][2] = 0.001 * i * i;
     }
-    (void)mini_table(&mini, 3, count, weights);
-    mini_sky_map(&mini, 8, 4, (const double(*)[3])rgb, 0.3);
-    mini_lens(&mini, lens[0], lens[1]);
+    if (QL_CFG_TABLES) {
+        (void)mini_table(&mini, 3, count, weights);
+    }
+    if (QL_CFG_SKY_MAP) {
+        mini_sky_map(&mini, 8, 4, (const double(*)[3])rgb, 0.3);
+    } else if (QL_CFG_SKY) {
+        mini_sky(&mini, 0.1, 0.2, 0.3);
+    }
+    if (QL_CFG_LENS) {
+        mini_lens(&mini, lens[0], lens[1]);
+    }
     mini_field(&mini, right, up);
     mini.width = mini.height = 4;
     mini_open(&mini, &scene);
 }
-#endif
 
 /* A copy of the blob, with nothing readable behind it. */
 static uint8_t *copy_of(size_t size)
@@ -127,12 +145,27 @@ static bool all_zero(const ql_scene_t *scene)
            scene->materials == zero.materials && scene->lights == zero.lights &&
            scene->light_count == 0 && scene->root_link == 0 &&
            scene->root_meta == 0 && scene->node_bits == 0
-#if ALL
-           && scene->normals == NULL && scene->gloss == NULL &&
-           scene->gloss_count == 0 && scene->spheres == NULL &&
-           scene->sky == NULL && scene->texels == NULL &&
-           scene->tables == NULL && scene->words == NULL &&
-           scene->table_count == 0 && scene->lens == NULL
+#if QL_CFG_SMOOTH
+           && scene->normals == NULL
+#endif
+#if QL_GLOSS
+           && scene->gloss == NULL && scene->gloss_count == 0
+#endif
+#if QL_CFG_SPHERES
+           && scene->spheres == NULL
+#endif
+#if QL_CFG_SKY
+           && scene->sky == NULL
+#endif
+#if QL_CFG_SKY_MAP
+           && scene->texels == NULL
+#endif
+#if QL_CFG_TABLES
+           && scene->tables == NULL && scene->words == NULL &&
+           scene->table_count == 0
+#endif
+#if QL_CFG_LENS
+           && scene->lens == NULL
 #endif
             ;
 }
@@ -163,7 +196,7 @@ static void repair(uint8_t *copy, size_t size)
 
 TEST(a_good_blob_opens)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         ql_scene_t scene;
         uint8_t *copy;
 
@@ -171,7 +204,8 @@ TEST(a_good_blob_opens)
         copy = copy_of(mini.size_bytes);
         CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_OK, "%u bits",
                 bits);
-        CHECK(scene.node_bits == bits && scene.light_count == 2 &&
+        CHECK(scene.node_bits == bits &&
+                        scene.light_count == 2 * QL_CFG_LIGHTS &&
                         (const uint8_t *)scene.header == copy,
                 "%u bits: %u lights", bits, scene.light_count);
         CHECK(*ql_blob_missing(copy) == '\0', "%u bits: misses %s", bits,
@@ -196,17 +230,15 @@ static void cut_anywhere(void)
 
 TEST(a_blob_cut_at_any_byte_is_truncated)
 {
-    build(8);
+    build(MINI_BITS_MIN);
     cut_anywhere();
-#if ALL
-    build_all(8);
+    build_all(MINI_BITS_MIN);
     cut_anywhere();
-#endif
 }
 
 TEST(an_unaligned_blob_is_refused)
 {
-    build(16);
+    build(MINI_BITS_MAX);
     for (unsigned shift = 1; shift < 4; shift++) {
         uint8_t *copy = malloc(mini.size_bytes + 4);
         ql_scene_t scene;
@@ -239,7 +271,7 @@ static bool right_status(size_t i, ql_status_t status)
 
 TEST(any_flipped_bit_is_refused_with_the_right_status)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         uint8_t *copy;
 
         build(bits);
@@ -264,7 +296,7 @@ TEST(a_feature_of_tomorrow_is_named_unknown)
     uint8_t *copy;
     ql_scene_t scene;
 
-    build(16);
+    build(MINI_BITS_MAX);
     copy = copy_of(mini.size_bytes);
     copy[19] |= 0x80; /* bit 31 of features */
     repair(copy, mini.size_bytes);
@@ -280,7 +312,7 @@ TEST(a_deeper_tree_than_the_stack_is_refused)
     uint8_t *copy;
     ql_scene_t scene;
 
-    build(16);
+    build(MINI_BITS_MAX);
     copy = copy_of(mini.size_bytes);
     copy[20] = QL_CFG_BVH_STACK + 1;
     repair(copy, mini.size_bytes);
@@ -307,7 +339,7 @@ static void try_damaged(const uint8_t *copy, size_t size)
     }
     accepted++;
     settings.spp = 2;
-    settings.bounces = 3;
+    settings.bounces = BUILT_BOUNCES(3);
     settings.seed = (uint32_t)accepted;
 #if QL_CFG_STRATEGIES
     settings.direct = (uint8_t)(accepted % (QL_DIRECT_MIS + 1));
@@ -319,7 +351,7 @@ static void try_damaged(const uint8_t *copy, size_t size)
         const uint16_t right = (uint16_t)(render.settings.width - 1);
         const uint16_t bottom = (uint16_t)(render.settings.height - 1);
         uint8_t pixel[3];
-        const ql_output_t output = {QL_FORMAT_RGB888, pixel};
+        const ql_output_t output = {BUILT_FORMAT, pixel};
         ql_sum_t sum = {{0, 0, 0}};
 
         ql_render_pixel(&render, 0, 0, 0, 2, &sum);
@@ -353,7 +385,7 @@ static void report(void)
 TEST(any_flipped_bit_with_the_crc_repaired_stays_inside)
 {
     accepted = refused = 0;
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         build(bits);
         flip_every_bit();
     }
@@ -395,7 +427,7 @@ TEST(random_damage_with_the_crc_repaired_stays_inside)
 {
     accepted = refused = 0;
     state = 1;
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         build(bits);
         damage_often(DAMAGED);
     }
@@ -425,7 +457,7 @@ static void try_nasty_values(void)
 TEST(nasty_values_in_every_field_stay_inside)
 {
     accepted = refused = 0;
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         build(bits);
         try_nasty_values();
     }
@@ -434,7 +466,7 @@ TEST(nasty_values_in_every_field_stay_inside)
 
 TEST(a_tree_that_doubles_back_is_refused)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         uint8_t *copy;
         const ql_blob_header_t *header;
         ql_scene_t scene;
@@ -478,7 +510,7 @@ TEST(any_packed_normal_stays_inside)
             0x80000000u, 0xa0000000u, 0xc0000000u, 0xe0000000u, 0xffffffe0u};
 
     accepted = refused = 0;
-    build(16);
+    build(MINI_BITS_MAX);
     for (unsigned i = 0; i < 32 * 5 * 20; i++) {
         uint8_t *copy = copy_of(mini.size_bytes);
         const ql_blob_header_t *header = (const ql_blob_header_t *)(void *)copy;
@@ -537,7 +569,7 @@ TEST(any_camera_and_any_triangles_stay_inside)
         uint8_t *camera, *vertex, *tri;
 
         if (i % (DAMAGED / 4) == 0) {
-            build(i % (DAMAGED / 2) == 0 ? 16 : 8);
+            build(i % (DAMAGED / 2) == 0 ? MINI_BITS_MAX : MINI_BITS_MIN);
         }
         copy = copy_of(mini.size_bytes);
         header = (const ql_blob_header_t *)(void *)copy;
@@ -600,7 +632,7 @@ TEST(features_that_are_not_built_in_are_named)
         ql_scene_t scene;                                                      \
         uint8_t *copy;                                                         \
         ql_status_t status;                                                    \
-        build(QL_CFG_NODE16 ? 16 : 8);                                         \
+        build(MINI_BITS_MAX);                                                  \
         copy = copy_of(mini.size_bytes);                                       \
         header = (ql_blob_header_t *)(void *)copy;                             \
         header->features |= QL_LE32((uint32_t)(name));                         \
@@ -622,11 +654,36 @@ TEST(features_that_are_not_built_in_are_named)
 
 /* ---- Tables of features ------------------------------------------------ */
 
+TEST(flipped_bits_of_every_table_stay_inside)
+{
+    accepted = refused = 0;
+    build_all(MINI_BITS_MIN);
+    flip_every_bit();
+    report();
+}
+
+TEST(random_damage_to_every_table_stays_inside)
+{
+    accepted = refused = 0;
+    state = 3;
+    build_all(MINI_BITS_MAX);
+    damage_often(DAMAGED);
+    report();
+}
+
+TEST(nasty_values_in_every_table_stay_inside)
+{
+    accepted = refused = 0;
+    build_all(MINI_BITS_MAX);
+    try_nasty_values();
+    report();
+}
+
 #if ALL
 
 TEST(a_blob_with_every_table_opens)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         ql_scene_t scene;
         uint8_t *copy;
 
@@ -642,31 +699,6 @@ TEST(a_blob_with_every_table_opens)
                 scene.gloss_count, scene.light_count, scene.table_count);
         free(copy);
     }
-}
-
-TEST(flipped_bits_of_every_table_stay_inside)
-{
-    accepted = refused = 0;
-    build_all(8);
-    flip_every_bit();
-    report();
-}
-
-TEST(random_damage_to_every_table_stays_inside)
-{
-    accepted = refused = 0;
-    state = 3;
-    build_all(16);
-    damage_often(DAMAGED);
-    report();
-}
-
-TEST(nasty_values_in_every_table_stay_inside)
-{
-    accepted = refused = 0;
-    build_all(16);
-    try_nasty_values();
-    report();
 }
 
 enum {
@@ -783,7 +815,7 @@ TEST(every_rule_of_every_table_is_checked)
     };
     const size_t count = sizeof broken / sizeof broken[0];
 
-    build_all(16);
+    build_all(MINI_BITS_MAX);
     for (size_t i = 0; i < count; i++) {
         const broken_t *const b = broken + i;
         uint8_t *copy = copy_of(mini.size_bytes);
@@ -811,7 +843,7 @@ TEST(a_sphere_without_a_table_of_spheres_is_refused)
     ql_scene_t scene;
     uint8_t *copy;
 
-    build(16);
+    build(MINI_BITS_MAX);
     copy = copy_of(mini.size_bytes);
     memset(copy + QL_LE32(described(copy, CORE_triangles)->offset), 0, 12);
     repair(copy, mini.size_bytes);
@@ -839,11 +871,11 @@ int main(int argc, char **argv)
     RUN(a_tree_that_doubles_back_is_refused);
     RUN(every_status_has_a_text);
     RUN(features_that_are_not_built_in_are_named);
-#if ALL
-    RUN(a_blob_with_every_table_opens);
     RUN(flipped_bits_of_every_table_stay_inside);
     RUN(random_damage_to_every_table_stays_inside);
     RUN(nasty_values_in_every_table_stay_inside);
+#if ALL
+    RUN(a_blob_with_every_table_opens);
     RUN(every_rule_of_every_table_is_checked);
     RUN(a_sphere_without_a_table_of_spheres_is_refused);
 #endif

@@ -16,7 +16,11 @@ enum {
     LOW = QL_GRID_MARGIN,
     HIGH = QL_GRID_MAX - QL_GRID_MARGIN,
     BRUTE_RAYS = 100000,
-    WATERTIGHT_RAYS = 200000
+    WATERTIGHT_RAYS = 200000,
+
+    /* what a tree of as many levels as the core's stack can hold */
+    SOUP = QL_CFG_BVH_STACK < 8 ? 150 : 500,
+    CUTS = QL_CFG_BVH_STACK < 8 ? 2 : 3
 };
 
 static mini_scene_t mini;
@@ -65,7 +69,7 @@ static void build_cornell(unsigned node_bits)
     mini_open(&mini, &scene);
 }
 
-/* Hundreds of triangles of every size and shape, crossing each other. */
+/* Triangles of every size and shape, crossing each other. */
 static void build_soup(unsigned node_bits)
 {
     uint16_t white;
@@ -75,7 +79,7 @@ static void build_soup(unsigned node_bits)
     mini.leaf_max = 3;
     white = mini_material(&mini, 0.5, 0);
     state = 17;
-    while (mini.triangle_count < 500) {
+    while (mini.triangle_count < SOUP) {
         int32_t v[3][3];
         ql_vec3_t e[2], n;
         const int32_t reach = 1 << random_in(2, 15);
@@ -136,7 +140,7 @@ static uint16_t middle_of(uint16_t a, uint16_t b, double (*at)[3],
     return (uint16_t)(*count)++;
 }
 
-/* An octahedron whose faces are cut in four, three times, pushed out to a
+/* An octahedron whose faces are cut in four, CUTS times, pushed out to a
  * sphere; then every vertex pulled in by up to the given part. */
 static void build_sphere(unsigned node_bits, double displaced)
 {
@@ -149,7 +153,7 @@ static void build_sphere(unsigned node_bits, double displaced)
     uint16_t white;
 
     memcpy(faces[0], octahedron, sizeof octahedron);
-    for (unsigned level = 0; level < 3; level++) {
+    for (unsigned level = 0; level < CUTS; level++) {
         uint16_t(*from)[3] = faces[level % 2], (*to)[3] = faces[1 - level % 2];
         unsigned known_count = 0;
 
@@ -181,7 +185,9 @@ static void build_sphere(unsigned node_bits, double displaced)
                 (int32_t)lrint(16383 + r * at[i][2]));
     }
     for (unsigned i = 0; i < face_count; i++) {
-        mini_face(&mini, faces[1][i][0], faces[1][i][1], faces[1][i][2], white);
+        const uint16_t *const v = faces[CUTS % 2][i];
+
+        mini_face(&mini, v[0], v[1], v[2], white);
     }
     mini_open(&mini, &scene);
 }
@@ -306,15 +312,10 @@ static void check_occluded(void)
             mini.triangle_count);
 }
 
+#if QL_CFG_NODE16
 TEST(closest_hit_equals_brute_force_on_cornell_16)
 {
     build_cornell(16);
-    check_closest();
-}
-
-TEST(closest_hit_equals_brute_force_on_cornell_8)
-{
-    build_cornell(8);
     check_closest();
 }
 
@@ -324,21 +325,9 @@ TEST(closest_hit_equals_brute_force_on_a_soup_16)
     check_closest();
 }
 
-TEST(closest_hit_equals_brute_force_on_a_soup_8)
-{
-    build_soup(8);
-    check_closest();
-}
-
 TEST(occlusion_equals_brute_force_on_cornell_16)
 {
     build_cornell(16);
-    check_occluded();
-}
-
-TEST(occlusion_equals_brute_force_on_cornell_8)
-{
-    build_cornell(8);
     check_occluded();
 }
 
@@ -347,12 +336,33 @@ TEST(occlusion_equals_brute_force_on_a_soup_16)
     build_soup(16);
     check_occluded();
 }
+#endif
+
+#if QL_CFG_NODE8
+TEST(closest_hit_equals_brute_force_on_cornell_8)
+{
+    build_cornell(8);
+    check_closest();
+}
+
+TEST(closest_hit_equals_brute_force_on_a_soup_8)
+{
+    build_soup(8);
+    check_closest();
+}
+
+TEST(occlusion_equals_brute_force_on_cornell_8)
+{
+    build_cornell(8);
+    check_occluded();
+}
 
 TEST(occlusion_equals_brute_force_on_a_soup_8)
 {
     build_soup(8);
     check_occluded();
 }
+#endif
 
 /* ---- The ray parameter ------------------------------------------------- */
 
@@ -361,7 +371,7 @@ TEST(ray_parameters_are_within_their_bound)
     double worst = 0;
     unsigned long hits = 0;
 
-    build_soup(16);
+    build_soup(MINI_BITS_MAX);
     state = 31;
     for (long i = 0; i < BRUTE_RAYS; i++) {
         ql_vec3_t to;
@@ -396,7 +406,7 @@ TEST(of_equal_triangles_the_lowest_index_wins)
     uint16_t white;
     unsigned long hits = 0;
 
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         mini_begin(&mini);
         mini.node_bits = bits;
         mini.leaf_max = 1;
@@ -481,19 +491,19 @@ static long misses(void)
 
 TEST(no_ray_leaves_a_cube_by_its_edges)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         long missed;
 
         build_cube(bits);
         missed = misses();
         CHECK(missed == 0, "%u-bit nodes: %ld misses", bits, missed);
     }
-    NOTE("%d rays, both node widths", WATERTIGHT_RAYS);
+    NOTE("%d rays, every node width", WATERTIGHT_RAYS);
 }
 
 TEST(no_ray_leaves_a_sphere_by_its_edges)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         long missed;
 
         build_sphere(bits, 0);
@@ -505,7 +515,7 @@ TEST(no_ray_leaves_a_sphere_by_its_edges)
 
 TEST(no_ray_leaves_a_displaced_sphere_by_its_edges)
 {
-    for (unsigned bits = 8; bits <= 16; bits += 8) {
+    for (unsigned bits = MINI_BITS_MIN; bits <= MINI_BITS_MAX; bits += 8) {
         long missed;
 
         build_sphere(bits, 0.3);
@@ -515,6 +525,7 @@ TEST(no_ray_leaves_a_displaced_sphere_by_its_edges)
     NOTE("%d rays, %u triangles", WATERTIGHT_RAYS, mini.triangle_count);
 }
 
+#if QL_CFG_NODE16
 /* The planted fault. Fine tests boxes with a margin of three units, so there
  * it takes one more to lose a hit. */
 TEST(boxes_shrunk_by_a_unit_are_detected)
@@ -523,7 +534,7 @@ TEST(boxes_shrunk_by_a_unit_are_detected)
     ql_blob_node16_t *nodes;
     long missed;
 
-    build_sphere(16, 0.3);
+    build_sphere(MINI_BITS_MAX, 0.3);
     nodes = (ql_blob_node16_t *)(void *)((uint8_t *)mini.blob +
                                          ((const uint8_t *)scene.pairs -
                                                  (const uint8_t *)mini.blob));
@@ -539,23 +550,30 @@ TEST(boxes_shrunk_by_a_unit_are_detected)
     CHECK(missed > 0, "%ld misses", missed);
     NOTE("%ld misses of boxes shrunk by %u", missed, shrink);
 }
+#endif
 
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_bvh", argc, argv);
+#if QL_CFG_NODE16
     RUN(closest_hit_equals_brute_force_on_cornell_16);
-    RUN(closest_hit_equals_brute_force_on_cornell_8);
     RUN(closest_hit_equals_brute_force_on_a_soup_16);
-    RUN(closest_hit_equals_brute_force_on_a_soup_8);
     RUN(occlusion_equals_brute_force_on_cornell_16);
-    RUN(occlusion_equals_brute_force_on_cornell_8);
     RUN(occlusion_equals_brute_force_on_a_soup_16);
+#endif
+#if QL_CFG_NODE8
+    RUN(closest_hit_equals_brute_force_on_cornell_8);
+    RUN(closest_hit_equals_brute_force_on_a_soup_8);
+    RUN(occlusion_equals_brute_force_on_cornell_8);
     RUN(occlusion_equals_brute_force_on_a_soup_8);
+#endif
     RUN(ray_parameters_are_within_their_bound);
     RUN(of_equal_triangles_the_lowest_index_wins);
     RUN(no_ray_leaves_a_cube_by_its_edges);
     RUN(no_ray_leaves_a_sphere_by_its_edges);
     RUN(no_ray_leaves_a_displaced_sphere_by_its_edges);
+#if QL_CFG_NODE16
     RUN(boxes_shrunk_by_a_unit_are_detected);
+#endif
     return TEST_END();
 }

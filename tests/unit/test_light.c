@@ -11,6 +11,8 @@
 #include "sample/ql_warp.h"
 #include "scene/ql_light.h"
 
+#if QL_CFG_LIGHTS
+
 #define ONE (1 << QL_POS_BITS)
 
 static mini_scene_t mini;
@@ -278,9 +280,23 @@ TEST(points_average_to_the_centre_of_gravity)
             mean[2] - (v[0][2] + v[1][2] + v[2][2]) / 3.0);
 }
 
+#else
+
+TEST(emitters_are_named_as_missing)
+{
+    ql_blob_header_t header = {0};
+
+    header.features = QL_LE32(QL_FEATURE_LIGHTS);
+    CHECK(strcmp(ql_blob_missing(&header), "lights") == 0, "%s",
+            ql_blob_missing(&header));
+}
+
+#endif
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_light", argc, argv);
+#if QL_CFG_LIGHTS
     RUN(each_emitter_is_chosen_for_its_share_and_weighs_its_inverse);
     RUN(weights_times_probabilities_count_every_emitter_once);
 #if QL_CFG_STRATEGIES
@@ -290,5 +306,8 @@ int main(int argc, char **argv)
 #endif
     RUN(points_are_within_half_a_unit);
     RUN(points_average_to_the_centre_of_gravity);
+#else
+    RUN(emitters_are_named_as_missing);
+#endif
     return TEST_END();
 }

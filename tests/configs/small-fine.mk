@@ -1,2 +1,0 @@
-config_small-fine := -DQL_CFG_PRECISION=1 -DQL_CFG_SMALL=1 \
-    -DQL_CFG_STRATEGIES=0
