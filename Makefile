@@ -23,14 +23,14 @@ HOST := -std=c99 -pedantic $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L \
 
 core_src := $(wildcard firmware/*/*.c)
 core_hdr := $(wildcard firmware/*.h firmware/*/*.h hal/*.h)
-host_hdr := $(core_hdr) $(wildcard tools/*.h tools/*/*.h \
-    tools/warp/figure/*.h sim/*.h)
+host_hdr := $(core_hdr) $(wildcard tools/*.h tools/*/*.h sim/*.h)
 fine := $(core_src:%.c=build/fine/%.o)
 draft := $(core_src:%.c=build/draft/%.o)
 io := $(addprefix build/host/tools/,cli.o image.o png.o deflate.o sums.o \
     develop.o)
 
-programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff sheet recv warp ref)
+programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff sheet recv warp \
+    ref trade)
 
 all: $(programs) build/$(SCENE).ppm ## Build everything for this PC, render the Cornell box
 
@@ -49,6 +49,19 @@ build/fine/%.o: %.c $(host_hdr)
 build/draft/%.o: %.c $(host_hdr)
 	@mkdir -p $(@D)
 	$(CC) $(HOST) -DQL_CFG_PRECISION=0 -c $< -o $@
+
+# Other tables of the warps than the tools have: build/qlux-sim-draft-nearest-9.
+TABLE_BITS ?= 7
+TABLE_LERP ?= 1
+tables := $(if $(filter 7-1,$(TABLE_BITS)-$(TABLE_LERP)),,-$(if $(filter \
+    0,$(TABLE_LERP)),nearest,lerp)-$(TABLE_BITS))
+ifneq ($(tables),)
+build/fine$(tables)/%.o build/draft$(tables)/%.o: %.c $(host_hdr)
+	@mkdir -p $(@D)
+	$(CC) $(HOST) -DQL_CFG_PRECISION=$(if $(findstring build/fine,$@),1,0) \
+	    -DQL_CFG_TABLE_BITS=$(TABLE_BITS) -DQL_CFG_TABLE_LERP=$(TABLE_LERP) \
+	    -c $< -o $@
+endif
 
 build/host/%.o: %.c $(host_hdr)
 	@mkdir -p $(@D)
@@ -77,7 +90,7 @@ build/qlux-recv: build/host/tools/recv_main.o $(io) $(fine)
 	$(link)
 
 build/qlux-warp: $(patsubst %.c,build/host/%.o,$(wildcard tools/warp/*.c \
-    tools/warp/figure/*.c) tools/scene/build_table.c) $(io) $(fine)
+    tools/figure/*.c) tools/scene/build_table.c) $(io) $(fine)
 	$(link)
 
 build/qlux-ref: $(patsubst %.c,build/host/%.o,$(wildcard tools/ref/*.c) \
@@ -86,18 +99,21 @@ build/qlux-ref: $(patsubst %.c,build/host/%.o,$(wildcard tools/ref/*.c) \
 
 sim := sim/sim_main.o sim/sim_options.o sim/sim_render.o
 
-build/qlux-sim: $(sim:%=build/fine/%) $(io) $(fine)
+build/qlux-sim$(tables): $(sim:%=build/fine$(tables)/%) $(io) \
+    $(core_src:%.c=build/fine$(tables)/%.o)
 	$(link) -lpthread
 
-build/qlux-sim-draft: $(sim:%=build/draft/%) $(io) $(draft)
+build/qlux-sim-draft$(tables): $(sim:%=build/draft$(tables)/%) $(io) \
+    $(core_src:%.c=build/draft$(tables)/%.o)
 	$(link) -lpthread
 
 # Scenes and pictures.
 
-build/$(SCENE).qlb build/$(SCENE).h &: $(scene_file) build/qlux-scene \
+BLOB ?= build/$(SCENE)
+
+$(BLOB).qlb $(BLOB).h &: $(scene_file) build/qlux-scene \
     $(foreach e,obj mtl pfm txt,$(wildcard $(dir $(scene_file))*.$(e)))
-	build/qlux-scene $< -o build/$(SCENE).qlb \
-	    --features build/$(SCENE).h $(SCENE_OPTIONS)
+	build/qlux-scene $< -o $(BLOB).qlb --features $(BLOB).h $(SCENE_OPTIONS)
 
 build/$(SCENE).ppm: build/qlux-sim build/$(SCENE).qlb
 	build/qlux-sim build/$(SCENE).qlb -o $@ --spp 64
@@ -118,7 +134,7 @@ warp-plots: build/qlux-warp ## Draw the warps of tools/README.md: build/warp-*.s
 clean: ## Remove build/
 	rm -rf build
 
-include hal/boards.mk
+include hal/boards.mk tools/trade/trade.mk
 include tests/tests.mk tests/bench/bench.mk
 
 .PHONY: all tools help run run-pc luts warp-plots clean

@@ -20,11 +20,11 @@
 #endif
 
 /* QL_CFG_TABLE_BITS: 5 to 10. Cells of the warps' tables: 2^bits of the sine in
- * a quarter turn, 3 2^(bits - 1) of the reciprocal square root; 7 bits per cell
- * of both together: 900 bytes, each bit more doubles that.
- * QL_CFG_TABLE_LERP: 0 or 1. Refine what they hold, the sine by Taylor's series,
- * the root by Newton's method; with 0 the nearest entry must do. Then directions
- * are off by up to 2^-bits, which is a bias: make trade measures it. */
+ * a quarter turn, 3 2^(bits - 1) of the reciprocal square root. Both together
+ * take 900 bytes with 7 bits; each bit more doubles that.
+ * QL_CFG_TABLE_LERP: 0 or 1. Refine what they hold, the sine by Taylor's
+ * series, the root by Newton's method; with 0 the nearest entry must do. Then
+ * directions are off by up to 2^-bits, a bias that make trade measures. */
 #ifndef QL_CFG_TABLE_BITS
 #define QL_CFG_TABLE_BITS 7
 #endif

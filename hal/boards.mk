@@ -2,14 +2,14 @@
 #
 # SIZE, SPP, SEED, BOUNCES, SAMPLER, DIRECT, INDIRECT, LIGHTS, LIGHT_SAMPLES,
 # ROULETTE (0 or 1), INTERLACE choose the picture, in the simulator's words;
-# PRECISION is draft or fine. STRATEGIES=1 builds every estimator in, which is
+# PRECISION is draft or fine; TABLE_BITS and TABLE_LERP are those of the gates. STRATEGIES=1 builds every estimator in, which is
 # the default only if one is asked for. ERROR=E stops a pixel at a relative error
 # of E; only then is the code for it built in. What the choice does not need is
 # not built in: the other sampler, with INDIRECT=none or BOUNCES=0 all that
 # follows the first hit, without a panel its code and formats. SMALL=1 asks for
 # short code before fast code: the gate QL_CFG_SMALL, link-time optimisation
 # (LTO=0 does without) and, unless DIAG=1, no counters. SCENE is a name: the main
-# Makefile makes build/SCENE.qlb and build/SCENE.h of it.
+# Makefile makes build/SCENE.qlb and build/SCENE.h of it; BLOB names others.
 
 BOARDS := $(notdir $(patsubst %/,%,$(wildcard hal/boards/*/)))
 PRECISION ?= draft
@@ -81,8 +81,9 @@ board_cflags := $(BOARD_CPU) $(OPT) $(board_lto) -std=c99 -pedantic -ffreestandi
     $(WARN) -Werror -ffunction-sections -fdata-sections -fno-common -g \
     -fno-asynchronous-unwind-tables -fcallgraph-info=su \
     -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
-    -DQL_CFG_FEATURES_HEADER='"build/$(SCENE).h"' \
+    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' \
     -DQL_CFG_PRECISION=$(if $(filter fine,$(PRECISION)),1,0) \
+    -DQL_CFG_TABLE_BITS=$(TABLE_BITS) -DQL_CFG_TABLE_LERP=$(TABLE_LERP) \
     -DQL_PORT_EMULATED=$(EMULATED) \
     -DQL_APP_WIDTH=$(word 1,$(subst x, ,$(SIZE))) \
     -DQL_APP_HEIGHT=$(word 2,$(subst x, ,$(SIZE))) \
@@ -108,15 +109,15 @@ $(board_name)/flags: FORCE
 	@printf '%s\n' '$(subst ','\'',$(board_cflags))' | cmp -s - $@ || \
 	    printf '%s\n' '$(subst ','\'',$(board_cflags))' > $@
 
-$(board_name)/%.c.o: %.c $(board_name)/flags build/$(SCENE).h
+$(board_name)/%.c.o: %.c $(board_name)/flags $(BLOB).h
 	@mkdir -p $(@D)
 	$(BOARD_CROSS)gcc $(board_cflags) $(if $(filter \
 	    $@,$(board_apart)),-fno-lto) -MMD -MP -c $< -o $@
 
-$(board_name)/%.S.o: %.S $(board_name)/flags build/$(SCENE).qlb
+$(board_name)/%.S.o: %.S $(board_name)/flags $(BLOB).qlb
 	@mkdir -p $(@D)
 	$(BOARD_CROSS)gcc $(BOARD_CPU) -c $< -o $@ \
-	    -DQL_BLOB_FILE='"build/$(SCENE).qlb"'
+	    -DQL_BLOB_FILE='"$(BLOB).qlb"'
 
 $(board_name).elf: $(board_obj) linker/sections.ld linker/$(BOARD_MCU).ld
 	$(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) $(board_lto) \
@@ -137,8 +138,8 @@ run-emulated: $(board_name).elf build/qlux-recv
 	    $(BOARD_QEMU)
 
 # What the simulator makes of the same choice; to compare with the board's.
-board_sim := build/qlux-sim$(if $(filter draft,$(PRECISION)),-draft)
-build/$(SCENE)-$(BOARD)-sim.ppm: build/$(SCENE).qlb $(board_sim) FORCE
+board_sim := build/qlux-sim$(if $(filter draft,$(PRECISION)),-draft)$(tables)
+build/$(SCENE)-$(BOARD)-sim.ppm: $(BLOB).qlb $(board_sim) FORCE
 	$(board_sim) $< -o $@ --quiet $(board_choice)
 
 size-board: $(board_name).elf

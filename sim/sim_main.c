@@ -84,6 +84,8 @@ static void describe(sums_t *sums, const ql_render_t *render)
     f[SUMS_LIGHTS] = s->lights;
     f[SUMS_LIGHT_SAMPLES] = s->light_samples;
     f[SUMS_ROULETTE] = s->roulette;
+    f[SUMS_TABLE_BITS] = QL_CFG_TABLE_BITS;
+    f[SUMS_TABLE_LERP] = QL_CFG_TABLE_LERP;
 }
 
 /* How many samples a pixel took. */

@@ -1,4 +1,4 @@
-/* ql_table_error.h - what sines and roots of warps may err, by choice of tables */
+/* ql_table_error.h - what sines and roots of warps may err, by their tables */
 /* SPDX-License-Identifier: MIT */
 
 /* The formulas of math/ql_trig.h and ql_real.h, five parts in a hundred wider,

@@ -80,6 +80,7 @@ jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
 jobs_lint := lint/layers|tools/check_layers.sh; \
     lint/docs|tools/check_docs.sh; lint/format|tools/check_format.sh;
 jobs_boards := boards|tests/boards/test_boards.sh; \
+    tools/trade|tests/tools/test_trade.sh; \
     boards/stack|tests/tools/test_stack_report.sh; \
     bench|tests/bench/test_bench.sh;
 jobs_mutants := mutants|tests/mutants/run.sh;

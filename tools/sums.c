@@ -304,8 +304,8 @@ const char *sums_decode(
 
     memset(sums, 0, sizeof *sums);
     *where = 0;
-    if (size < 4 || memcmp(data, "QLS2", 4) != 0) {
-        return "expected a sum file (QLS2)";
+    if (size < 4 || memcmp(data, "QLS3", 4) != 0) {
+        return "expected a sum file (QLS3)";
     }
     *where = size;
     if (size < HEAD_BYTES + CRC_BYTES) {
@@ -384,7 +384,7 @@ void sums_write(sums_t *sums, cli_out_t *out)
     checked_t to = {out->file, 0};
 
     join_ranges(sums);
-    put_bytes(&to, (const uint8_t *)"QLS2", 4);
+    put_bytes(&to, (const uint8_t *)"QLS3", 4);
     for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
         put_le32(&to, sums->field[i]);
     }

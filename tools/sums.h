@@ -4,10 +4,10 @@
 /* A .qls file holds part of a picture: some rows, some sample indices. Parts of
  * one picture add up to the very bits of the whole. Numbers are little-endian:
  *
- *     0   4         magic "QLS2"
- *     4   4 * 15    the settings of SUMS_FIELD_LIST, in its order
- *    64   4         n, the number of ranges
- *    68   16 * n    ranges: row_first, row_end, sample_first, sample_end
+ *     0   4         magic "QLS3"
+ *     4   4 * 17    the settings of SUMS_FIELD_LIST, in its order
+ *    72   4         n, the number of ranges
+ *    76   16 * n    ranges: row_first, row_end, sample_first, sample_end
  *     .   24 * w    for each row that a range holds, from the top: for each
  *                   pixel u64 sums of R, G and B, u40.24 radiance units
  *     .   4         CRC-32 of everything before
@@ -41,7 +41,9 @@
     X(SUMS_INDIRECT, "indirect strategy", 0, 255)                              \
     X(SUMS_LIGHTS, "choice of lights", 0, 255)                                 \
     X(SUMS_LIGHT_SAMPLES, "samples a light", 1, 255)                           \
-    X(SUMS_ROULETTE, "roulette", 0, 1)
+    X(SUMS_ROULETTE, "roulette", 0, 1)                                         \
+    X(SUMS_TABLE_BITS, "table bits", 5, 10)                                    \
+    X(SUMS_TABLE_LERP, "refined tables", 0, 1)
 
 enum {
 #define SUMS_FIELD_ENUM(name, text, min, max) name,

@@ -16,8 +16,8 @@
  *        bits. With h = pi / 2^(bits + 2), half a cell, and 2e-9 of rounding it
  *        is h^2 / 2 or h^3 / 6; h without QL_CFG_TABLE_LERP.
  * Cost:  two look-ups; three multiplications (draft) or five (fine), or none.
- * From:  Taylor's series about the nearest of 2^(bits + 2) angles a turn, of the
- *        first (draft) or second order (fine).
+ * From:  Taylor's series about the nearest of 2^(bits + 2) angles a turn, of
+ *        the first (draft) or second order (fine).
  */
 void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine);
 

@@ -5,9 +5,9 @@
 
 #include "sample/ql_hash.h"
 
-/* value m / 2^down: half up, or if it is faint up with the chance of what is cut
- * off, so that its mean is the number itself. Above QL_CONTRIBUTION_MAX where it
- * does not fit. */
+/* value m / 2^down: half up, or if it is faint up with the chance of what is
+ * cut off, so that its mean is the number itself. Above QL_CONTRIBUTION_MAX
+ * where it does not fit. */
 static QL_NOINLINE uint64_t rounded(
         uint32_t value, uint32_t m, int32_t down, uint32_t key, ql_diag_t *diag)
 {

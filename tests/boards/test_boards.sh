@@ -129,6 +129,8 @@ for board; do
     claim "$board" lens_is_the_same scene lens "$board" SIZE=20x20 SPP=1
     claim "$board" smooth_normals_are_the_same \
         scene smooth "$board" SIZE=20x20 SPP=1 PRECISION=fine
+    claim "$board" nearest_entries_of_short_tables_are_the_same \
+        same "$board" SIZE=24x24 TABLE_BITS=5 TABLE_LERP=0
     claim "$board" small_code_draws_the_same \
         same "$board" SMALL=1 DIAG=1 SIZE=24x24
     claim "$board" direct_light_alone_is_the_same scene square "$board" \

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "film_add.h"
 #include "math/ql_rgb.h"
 #include "math/ql_trig.h"
 #include "sample/ql_lobe.h"
@@ -253,13 +254,14 @@ static void round_point(void *data, const ref_ray_t *ray, const ref_hit_t *hit,
     if (is_on(r, ROUNDING_POINT)) {
         const ref_vec_t before = surface->p;
         ref_vec_t p;
-        ql_vec3_t at;
+        ql_vec3_t at, corner, n;
 
         at.x = cut(before.x / ULP, ray->direction.x);
         at.y = cut(before.y / ULP, ray->direction.y);
         at.z = cut(before.z / ULP, ray->direction.z);
-        (void)ql_surface_step(
-                &at, to_integers(shape->corner, 1), normal_of(r, surface));
+        corner = to_integers(shape->corner, 1);
+        n = normal_of(r, surface);
+        (void)ql_surface_step(&at, &corner, &n);
         p = from_integers(at, ULP);
         count(r, ROUNDING_POINT, ref_length(ref_sub(p, before)) / ULP);
         r->error[ROUNDING_POINT].along +=
@@ -429,7 +431,7 @@ static void round_light_point(void *data, const ref_surface_t *surface,
     if (r->scene->blob->two_sided && ref_dot(*to, shape->n) > 0) {
         point.n = to_integers(shape->n, -1);
     }
-    (void)ql_surface_step(&point.q, point.corner, point.n);
+    (void)ql_surface_step(&point.q, &point.corner, &point.n);
     q = from_integers(point.q, ULP);
     count(r, ROUNDING_LIGHT, ref_length(ref_sub(q, exact)) / ULP);
     r->error[ROUNDING_LIGHT].along +=
@@ -526,7 +528,7 @@ static void round_contribution(void *data, double *light)
 {
     static const double per_unit = 1ul << QL_SUM_BITS;
     rounding_t *r = data;
-    ql_diag_t diag = {0, 0, 0, 0};
+    ql_diag_t diag = {0};
     uint64_t sum = 0;
 
     if (!is_on(r, ROUNDING_SUM) || *light <= 0) {
@@ -535,7 +537,8 @@ static void round_contribution(void *data, double *light)
     if (r->truncate) {
         sum = (uint64_t)(*light * per_unit);
     } else {
-        ql_film_add(&sum, QL_UQ31_ONE, to_nearest_real(*light), &diag);
+        film_add(&sum, QL_UQ31_ONE, to_nearest_real(*light),
+                0x9e3779b9u * (uint32_t)r->error[ROUNDING_SUM].count, &diag);
     }
     count(r, ROUNDING_SUM, (double)sum - *light * per_unit);
     *light = put_number(r, *light, (double)sum / per_unit);

@@ -281,7 +281,7 @@ static void repair(uint8_t *data, size_t size)
 {
     uint32_t crc;
 
-    if (size > 8 && memcmp(data, "QLS2", 4) == 0) {
+    if (size > 8 && memcmp(data, "QLS3", 4) == 0) {
         crc = ql_crc32(0, data, size - 4);
         for (unsigned i = 0; i < 4; i++) {
             data[size - 4 + i] = (uint8_t)(crc >> 8 * i);
@@ -333,6 +333,7 @@ static void fill_sums(sums_t *sums)
     sums->field[SUMS_HEIGHT] = 7;
     sums->field[SUMS_DIR_BITS] = 22;
     sums->field[SUMS_LIGHT_SAMPLES] = 1;
+    sums->field[SUMS_TABLE_BITS] = 7;
     sums->field[SUMS_RADIANCE_EXP] = 0xfffffffdu;
     sums_new(sums);
     for (unsigned i = 0; i < 4; i++) {

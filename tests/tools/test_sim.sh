@@ -263,8 +263,8 @@ say a_failed_merge_leaves_nothing $?
 
 # Numbers
 "$sim" scene.qlb --save-sums n.qls $small --stats >stats.txt
-grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 7 ]
-say stats_are_seven_numbers $?
+grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 8 ]
+say stats_are_eight_numbers $?
 "$sim" scene.qlb -o n.ppm --size 20x14 --spp 256 --error 0.2 --quiet --stats \
     >stats.txt
 awk '/^paths: /{p = $2} /^samples-per-pixel: /{s = $2}

@@ -4,7 +4,7 @@
 #ifndef PLOT_H
 #define PLOT_H
 
-#include "warp/figure/figure.h"
+#include "figure/figure.h"
 #include "warps.h"
 
 #define PI     3.14159265358979323846

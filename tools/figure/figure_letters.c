@@ -1,7 +1,7 @@
 /* figure_letters.c - an alphabet of strokes for text in pixels */
 /* SPDX-License-Identifier: MIT */
 
-#include "warp/figure/figure.h"
+#include "figure/figure.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* figure_raster.c - drawings to pixels, smoothed */
 /* SPDX-License-Identifier: MIT */
 
-#include "warp/figure/figure.h"
+#include "figure/figure.h"
 
 #include <math.h>
 #include <stdlib.h>

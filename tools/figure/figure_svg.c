@@ -1,7 +1,7 @@
 /* figure_svg.c - drawings: how one is described, and written as SVG */
 /* SPDX-License-Identifier: MIT */
 
-#include "warp/figure/figure.h"
+#include "figure/figure.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,1 +1,0 @@
-config_tables-coarse := -DQL_CFG_PRECISION=0 -DQL_CFG_TABLE_BITS=5 -DQL_CFG_TABLE_LERP=0

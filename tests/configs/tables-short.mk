@@ -1,1 +1,0 @@
-config_tables-short := -DQL_CFG_PRECISION=1 -DQL_CFG_TABLE_BITS=5

@@ -1,0 +1,183 @@
+/* trade_error.c - the error of a picture as its samples double */
+/* SPDX-License-Identifier: MIT */
+
+/* Linked with a core of each choice of precision and tables. With two
+ * references a and b of independent random numbers (x - a)(x - b) has the mean
+ * (x - truth)^2, whatever their own noise, so they need not be converged far
+ * below the errors that are measured. */
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image.h"
+#include "qlux.h"
+#include "sim/sim_options.h"
+
+static const char help[] =
+        "trade-error: the error of a picture as its samples double\n"
+        "\n"
+        "  trade-error A.pfm B.pfm ENOUGH SCENE.qlb [options of qlux-sim]\n"
+        "\n"
+        "A and B are references with different seeds. Prints a line for 1, 2,\n"
+        "4, .. samples a pixel up to --spp, or until the error is below\n"
+        "ENOUGH: \"samples error bias\". The error is the root of relMSE (see\n"
+        "qlux-diff) against what both references estimate, the bias the\n"
+        "relative difference of the means. With --error pixels end by\n"
+        "themselves: one line, with their mean number of samples.\n"
+        "\n"
+        "Example:\n"
+        "  trade-error a.pfm b.pfm 0.01 cornell.qlb --size 36x36 --spp 1024\n";
+
+typedef struct {
+    image_t a, b;     /* references */
+    ql_sum_t *sums;   /* of a pixel: its samples so far */
+    uint32_t *counts; /* how many */
+    double unit;      /* of a sum, in the units of Ke */
+    size_t pixels;
+} measure_t;
+
+typedef struct {
+    double samples; /* a pixel, mean */
+    double error;
+    double bias;
+} figures_t;
+
+/* Mean of a reference's values. */
+static double mean_of(const image_t *image, size_t count)
+{
+    double sum = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        sum += image->floats[i];
+    }
+    return sum / (double)count;
+}
+
+static figures_t figures_of(const measure_t *m)
+{
+    const size_t n = 3 * m->pixels;
+    const double mean = (mean_of(&m->a, n) + mean_of(&m->b, n)) / 2;
+    double got = 0, square = 0, samples = 0;
+    figures_t f;
+
+    for (size_t i = 0; i < n; i++) {
+        const double a = m->a.floats[i], b = m->b.floats[i];
+        const double x =
+                (double)m->sums[i / 3].rgb[i % 3] * m->unit / m->counts[i / 3];
+
+        got += x;
+        square += (x - a) * (x - b) /
+                  ((a + b) * (a + b) / 4 + 0.01 * mean * mean);
+    }
+    for (size_t i = 0; i < m->pixels; i++) {
+        samples += m->counts[i];
+    }
+    f.samples = samples / (double)m->pixels;
+    f.error = sqrt(fmax(square / (double)n, 0));
+    f.bias = got / (double)n / mean - 1;
+    printf("%.6g %.6g %.6g\n", f.samples, f.error, f.bias);
+    fflush(stdout);
+    return f;
+}
+
+/* Every pixel up to so many samples; or as many as its error needs. */
+static void render_to(measure_t *m, ql_render_t *render, uint32_t end)
+{
+    const ql_settings_t *s = &render->settings;
+
+    for (size_t i = 0; i < m->pixels; i++) {
+        const uint16_t x = (uint16_t)(i % s->width);
+        const uint16_t y = (uint16_t)(i / s->width);
+
+        if (s->error_q16 != 0) {
+            m->counts[i] = ql_render_adaptive(render, x, y, m->sums + i);
+        } else {
+            ql_render_pixel(render, x, y, m->counts[i], end - m->counts[i],
+                    m->sums + i);
+            m->counts[i] = end;
+        }
+    }
+}
+
+static void measure(measure_t *m, ql_render_t *render, double enough)
+{
+    const ql_settings_t *s = &render->settings;
+    uint32_t samples = s->error_q16 != 0 ? s->spp : 1;
+    figures_t f;
+
+    do {
+        render_to(m, render, samples);
+        f = figures_of(m);
+        samples *= 2; /* at most 2^25 */
+    } while (f.error > enough && samples <= s->spp);
+}
+
+static void read_reference(
+        image_t *image, const char *path, const ql_settings_t *s)
+{
+    image_read(image, path);
+    if (image->floats == NULL || image->width != s->width ||
+            image->height != s->height) {
+        cli_fail(CLI_INPUT, "%s: expected a PFM of %ux%u", path, s->width,
+                s->height);
+    }
+}
+
+/* sim_options_parse() wants to know where the picture goes. */
+static void parse(sim_options_t *options, int argc, char **argv)
+{
+    char **args = cli_alloc((size_t)argc + 2, sizeof *args);
+    char out[] = "-o", nowhere[] = "nowhere.pfm";
+    int count = 0;
+
+    args[count++] = argv[0];
+    for (int i = 4; i < argc; i++) {
+        args[count++] = argv[i];
+    }
+    args[count++] = out;
+    args[count++] = nowhere;
+    sim_options_parse(options, count, args);
+    free(args);
+}
+
+int main(int argc, char **argv)
+{
+    sim_options_t options;
+    measure_t m;
+    ql_render_t render;
+    ql_scene_t scene;
+    void *blob;
+    size_t size;
+
+    cli_begin("trade-error");
+    if (argc == 2 && strcmp(argv[1], "--help") == 0) {
+        fputs(help, stdout);
+        return CLI_DONE;
+    }
+    if (argc < 5) {
+        cli_fail(CLI_USAGE, "expected A.pfm B.pfm ENOUGH SCENE.qlb; see "
+                            "--help");
+    }
+    parse(&options, argc, argv);
+    blob = cli_read(options.scene, &size);
+    if (ql_blob_open(&scene, blob, size) != QL_OK ||
+            ql_render_init(&render, &scene, &options.settings) != QL_OK) {
+        cli_fail(CLI_INPUT, "%s: not a scene that this core renders so",
+                options.scene);
+    }
+    read_reference(&m.a, argv[1], &render.settings);
+    read_reference(&m.b, argv[2], &render.settings);
+    m.pixels = (size_t)render.settings.width * render.settings.height;
+    m.sums = cli_alloc(m.pixels, sizeof *m.sums);
+    m.counts = cli_alloc(m.pixels, sizeof *m.counts);
+    m.unit = ldexp(1, ql_i16(QL_LE16((uint16_t)scene.header->radiance_exp)) -
+                              QL_SUM_BITS);
+    measure(&m, &render, strtod(argv[3], NULL));
+    image_free(&m.a);
+    image_free(&m.b);
+    free(m.sums);
+    free(m.counts);
+    free(blob);
+    return CLI_DONE;
+}
