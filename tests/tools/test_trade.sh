@@ -33,7 +33,7 @@ table good.csv a,base,0.5,1000 a,base,0.09,9000 b,direct,0.08,4000 \
 expect help_has_an_example 0 'Example:' "$trade" --help
 expect no_table_is_code_1 1 'name a table' "$trade"
 expect two_tables_are_code_1 1 'expected one table' "$trade" good.csv good.csv
-expect an_unknown_option_is_code_1 1 "'--best'" "$trade" --best
+expect an_unknown_option_is_code_1 1 "'--bad'" "$trade" --bad
 expect a_linear_drawing_is_code_1 1 'expected .svg' "$trade" good.csv -o t.pfm
 expect a_missing_table_is_code_3 3 'none.csv' "$trade" none.csv
 echo 'scene,core' >bad.csv
@@ -65,6 +65,9 @@ say says_what_to_ask_for $?
 grep -q 'instructions a pixel' t.svg && grep -q '>b<' t.svg &&
     grep -q 'best on c' t.svg && [ "$(head -c 4 t.png | tail -c 3)" = PNG ]
 say the_drawing_names_axes_and_what_is_best $?
+[ "$("$trade" good.csv --best | cut -d, -f3-5 | tr '\n' ' ')" = \
+    'name,samples,error a,1,0.5 b,1,0.08 c,1,0.02 ' ]
+say best_is_what_nothing_cheaper_is_better_than $?
 ! "$trade" good.csv --quiet | grep -q .
 say quiet_prints_nothing $?
 

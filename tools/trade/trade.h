@@ -38,6 +38,11 @@ void trade_free(trade_t *trade);
 const trade_point_t *trade_cheapest(const trade_t *trade, const char *scene,
         const char *core, double error);
 
+/* The cheapest best point of the scene and core of like that costs more than
+ * this; NULL if none does. */
+const trade_point_t *trade_next_best(
+        const trade_t *trade, const trade_point_t *like, double cost);
+
 /* Is point i the first of its scene? Of its scene and core? */
 bool trade_new_scene(const trade_t *trade, size_t i);
 bool trade_new_core(const trade_t *trade, size_t i);

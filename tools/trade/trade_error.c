@@ -21,13 +21,16 @@ static const char help[] =
         "\n"
         "A and B are references with different seeds. Prints a line for 1, 2,\n"
         "4, .. samples a pixel up to --spp, or until the error is below\n"
-        "ENOUGH: \"samples error bias\". The error is the root of relMSE (see\n"
-        "qlux-diff) against what both references estimate, the bias the\n"
-        "relative difference of the means. With --error pixels end by\n"
-        "themselves: one line, with their mean number of samples.\n"
+        "ENOUGH, or the bias above it after 1024: \"samples error bias\". The\n"
+        "error is the root of relMSE (see qlux-diff) against what both\n"
+        "references estimate, the bias the relative difference of the means.\n"
+        "With --error pixels end by themselves: one line, with their mean\n"
+        "number of samples.\n"
         "\n"
         "Example:\n"
         "  trade-error a.pfm b.pfm 0.01 cornell.qlb --size 36x36 --spp 1024\n";
+
+#define BIAS_IS_KNOWN 1024 /* samples a pixel */
 
 typedef struct {
     image_t a, b;     /* references */
@@ -100,6 +103,14 @@ static void render_to(measure_t *m, ql_render_t *render, uint32_t end)
     }
 }
 
+/* Whether more samples may bring the error below what is enough: they bring no
+ * bias down, which after so many is known. */
+static bool may_help(const figures_t *f, double enough)
+{
+    return f->error > enough &&
+           (f->samples < BIAS_IS_KNOWN || fabs(f->bias) < enough);
+}
+
 static void measure(measure_t *m, ql_render_t *render, double enough)
 {
     const ql_settings_t *s = &render->settings;
@@ -110,7 +121,7 @@ static void measure(measure_t *m, ql_render_t *render, double enough)
         render_to(m, render, samples);
         f = figures_of(m);
         samples *= 2; /* at most 2^25 */
-    } while (f.error > enough && samples <= s->spp);
+    } while (may_help(&f, enough) && samples <= s->spp);
 }
 
 static void read_reference(

@@ -9,7 +9,7 @@
 static const char help[] =
         "qlux-trade: error against instructions of measured choices\n"
         "\n"
-        "  qlux-trade TRADE.csv [-o FILE.{svg,png,ppm}] [--quiet]\n"
+        "  qlux-trade TRADE.csv [-o FILE.{svg,png,ppm}] [--best] [--quiet]\n"
         "\n"
         "TRADE.csv is what make trade writes. Draws every choice, a line a\n"
         "choice, as its samples double, and what is best on each core; "
@@ -19,6 +19,7 @@ static const char help[] =
         "10 %, 3 % and 1 %, its instructions a pixel, and what to ask for.\n"
         "\n"
         "  -o FILE   the drawing\n"
+        "  --best    print what nothing cheaper is better than, as a table\n"
         "  --quiet   print nothing\n"
         "\n"
         "Exit: 0 done, 1 usage, 2 bad table, 3 cannot read or write\n"
@@ -54,6 +55,25 @@ static void recommend(const trade_t *trade)
     }
 }
 
+static void print_best(const trade_t *trade)
+{
+    printf("scene,core,name,samples,error,bias,instructions_per_pixel,build,"
+           "options\n");
+    for (size_t i = 0; i < trade->count; i++) {
+        const trade_point_t *p = trade->points + i;
+
+        if (!trade_new_core(trade, i)) {
+            continue;
+        }
+        for (p = trade_next_best(trade, p, 0); p != NULL;
+                p = trade_next_best(trade, p, p->cost)) {
+            printf("%s,%s,%s,%.6g,%.4g,%.4g,%.0f,\"%s\",%s\n", p->scene,
+                    p->core, p->name, p->samples, p->error, p->bias, p->cost,
+                    p->build, p->options);
+        }
+    }
+}
+
 static void write_figure(const trade_t *trade, const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -82,7 +102,7 @@ static void write_figure(const trade_t *trade, const char *path)
 int main(int argc, char **argv)
 {
     const char *table = NULL, *picture = NULL;
-    bool quiet = false;
+    bool quiet = false, best = false;
     trade_t trade;
 
     cli_begin("qlux-trade");
@@ -95,6 +115,8 @@ int main(int argc, char **argv)
             picture = cli_text("-o", argv[++i]);
         } else if (strcmp(argv[i], "--quiet") == 0) {
             quiet = true;
+        } else if (strcmp(argv[i], "--best") == 0) {
+            best = true;
         } else if (argv[i][0] == '-' || table != NULL) {
             cli_fail(CLI_USAGE, "'%s': expected one table (see --help)",
                     argv[i]);
@@ -109,7 +131,9 @@ int main(int argc, char **argv)
     if (picture != NULL) {
         write_figure(&trade, picture);
     }
-    if (!quiet) {
+    if (best) {
+        print_best(&trade);
+    } else if (!quiet) {
         recommend(&trade);
     }
     trade_free(&trade);

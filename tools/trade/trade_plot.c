@@ -7,11 +7,13 @@
 #include "trade.h"
 
 #define PANEL_WIDTH  560.0
-#define PANEL_HEIGHT 400.0
+#define PANEL_HEIGHT 330.0
 #define LEFT         64.0
 #define TOP          46.0
 #define GAP          84.0
 #define LEGEND       150.0
+
+#define CORES_MAX 8u
 
 /* Decades that are shown. */
 #define COST_LOW  3.5
@@ -140,51 +142,40 @@ static void draw_choice(figure_t *figure, const panel_t *panel,
     }
 }
 
-/* The best point of a scene on a core that costs more than this; NULL if none
- * does. */
-static const trade_point_t *next_best(
-        const trade_t *trade, const trade_point_t *like, double cost)
-{
-    const trade_point_t *next = NULL;
-
-    for (size_t i = 0; i < trade->count; i++) {
-        const trade_point_t *p = trade->points + i;
-
-        if (p->best && p->cost > cost && strcmp(p->scene, like->scene) == 0 &&
-                strcmp(p->core, like->core) == 0 && shown(p) &&
-                (next == NULL || p->cost < next->cost)) {
-            next = p;
-        }
-    }
-    return next;
-}
-
+/* What is best on a core; of the first one by name. */
 static void draw_best(figure_t *figure, const panel_t *panel,
         const trade_t *trade, const trade_point_t *like, unsigned core)
 {
     static const uint32_t colours[] = {0x000000, 0x555555, 0x999999};
     figure_style_t line = style(colours[core % 3], core == 0 ? 3 : 1.6);
-    const trade_point_t *p = next_best(trade, like, 0), *labelled = NULL;
+    const trade_point_t *p, *labelled = NULL;
 
     line.dashed = core != 0;
     figure_add(figure, FIGURE_PATH, line);
-    for (; p != NULL; p = next_best(trade, like, p->cost)) {
-        figure_point(figure, x_of(panel, p->cost), y_of(panel, p->error));
+    for (p = trade_next_best(trade, like, 0); p != NULL;
+            p = trade_next_best(trade, like, p->cost)) {
+        if (shown(p)) {
+            figure_point(figure, x_of(panel, p->cost), y_of(panel, p->error));
+        }
     }
-    if (core != 0) {
-        return;
-    }
-    for (p = next_best(trade, like, 0); p != NULL;
-            p = next_best(trade, like, p->cost)) {
+    for (p = trade_next_best(trade, like, 0); p != NULL && core == 0;
+            p = trade_next_best(trade, like, p->cost)) {
         const double x = x_of(panel, p->cost), y = y_of(panel, p->error);
 
+        if (!shown(p)) {
+            continue;
+        }
         figure_add(figure, FIGURE_DOTS, style(0x000000, 6));
         figure_point(figure, x, y);
         if (labelled == NULL ||
                 (strcmp(p->name, labelled->name) != 0 &&
                         y - y_of(panel, labelled->error) > 13)) {
-            figure_text(figure, style(0x000000, 11), FIGURE_RIGHT, x - 7, y + 9,
-                    "%s", p->name);
+            const bool crowded = x < panel->x0 + 70; /* the axis is there */
+
+            figure_text(figure, style(0x000000, 11),
+                    crowded ? FIGURE_LEFT : FIGURE_RIGHT,
+                    crowded ? x + 8 : x - 7, crowded ? y - 5 : y + 9, "%s",
+                    p->name);
             labelled = p;
         }
     }
@@ -194,6 +185,7 @@ static void draw_panel(figure_t *figure, const panel_t *panel,
         const trade_t *trade, size_t first)
 {
     const trade_point_t *at = trade->points + first;
+    const trade_point_t *cores[CORES_MAX];
     char title[TRADE_TEXT + 64];
     unsigned core = 0;
 
@@ -214,11 +206,15 @@ static void draw_panel(figure_t *figure, const panel_t *panel,
             draw_choice(figure, panel, trade, i);
         }
     }
+    /* the first core comes last, on top */
     for (size_t i = first; i < trade->count; i++) {
         if (strcmp(trade->points[i].scene, at->scene) == 0 &&
                 trade_new_core(trade, i)) {
-            draw_best(figure, panel, trade, trade->points + i, core++);
+            cores[core++ % CORES_MAX] = trade->points + i;
         }
+    }
+    for (core = core < CORES_MAX ? core : CORES_MAX; core > 0; core--) {
+        draw_best(figure, panel, trade, cores[core - 1], core - 1);
     }
 }
 

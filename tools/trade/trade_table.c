@@ -175,6 +175,22 @@ const trade_point_t *trade_cheapest(
     return best;
 }
 
+const trade_point_t *trade_next_best(
+        const trade_t *trade, const trade_point_t *like, double cost)
+{
+    const trade_point_t *next = NULL;
+
+    for (size_t i = 0; i < trade->count; i++) {
+        const trade_point_t *p = trade->points + i;
+
+        if (p->best && p->cost > cost && same_place(p, like) &&
+                (next == NULL || p->cost < next->cost)) {
+            next = p;
+        }
+    }
+    return next;
+}
+
 bool trade_new_scene(const trade_t *trade, size_t i)
 {
     for (size_t k = 0; k < i; k++) {
