@@ -71,7 +71,19 @@ say best_is_what_nothing_cheaper_is_better_than $?
 ! "$trade" good.csv --quiet | grep -q .
 say quiet_prints_nothing $?
 
-# ---- trade-error ------------------------------------------------------------
+# The picture of the README, and its table, are of the numbers beside it.
+"$trade" "$root/tools/trade/trade.csv" -o drawn.svg >said.txt &&
+    cmp -s drawn.svg "$root/tools/trade/trade.svg"
+say the_drawing_kept_is_that_of_the_table_kept $?
+awk '/ on /{ on = / cortex-m3$/ } on && / M instructions/ {
+        sub(/ M instr.*/, ""); print $NF ": " }' said.txt >numbers.txt
+[ "$(wc -l <numbers.txt)" -eq 9 ] && while read -r number; do
+    grep -q "| $number " "$root/README.md" || echo "$number" >>lacking.txt
+done <numbers.txt
+[ ! -e lacking.txt ]
+say the_readme_recommends_what_the_table_does $?
+
+# ---- measurements -----------------------------------------------------------
 
 cd "$root" || exit 3
 awk -v quick=0 -f tools/trade/rules.awk - >"$work/out.txt" 2>&1 <<'END'
