@@ -15,6 +15,10 @@
 
 #define TABLES_DEFAULT (QL_CFG_TABLE_BITS == 7 && QL_CFG_TABLE_LERP)
 
+/* Good enough for claims of exact distributions. Coarser ones are a bias. */
+#define TABLES_EXACT                                                           \
+    (QL_CFG_TABLE_LERP && (QL_CFG_TABLE_BITS >= 7 || QL_CFG_PRECISION > 0))
+
 /* ql_sincos(), absolute */
 #define SINE_ERROR                                                             \
     (1.05 * SINE_STEP *                                                        \

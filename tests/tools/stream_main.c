@@ -50,7 +50,7 @@ int main(int argc, char **argv)
 {
     static uint8_t frame[QL_STREAM_FRAME_BYTES(UINT16_MAX)];
     ql_settings_t settings = QL_SETTINGS_DEFAULT;
-    ql_stream_end_t end = {QL_OK, {7, 6, 5, 4}, 3000, 1000000};
+    ql_stream_end_t end = {QL_OK, {7, 6, 5, 4, 3}, 3000, 1000000};
     long flip = -1, cut = -1, drop = -1, twice = -1;
     bool noise = false;
     ql_format_t format;

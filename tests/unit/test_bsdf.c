@@ -1511,7 +1511,7 @@ int main(int argc, char **argv)
 #if QL_CFG_PHONG
     RUN(phong_lobes_have_the_albedos_of_the_table);
     RUN(phong_lobes_are_cut_at_the_horizon);
-    RUN_IF(QL_CFG_TABLE_LERP, phong_lobes_of_exponent_n_plus_1_are_rejected);
+    RUN_IF(TABLES_EXACT, phong_lobes_of_exponent_n_plus_1_are_rejected);
     RUN(phong_weights_without_the_cosine_are_rejected);
     RUN(every_density_has_the_same_mean);
     RUN(colours_of_both_lobes_keep_apart);
@@ -1522,7 +1522,7 @@ int main(int argc, char **argv)
 #if QL_CFG_STRATEGIES
     RUN(densities_are_those_of_the_lobe_drawn);
     RUN(light_and_directions_and_both_have_the_same_mean);
-    RUN_IF(QL_CFG_TABLE_LERP, a_density_without_the_chance_is_rejected);
+    RUN_IF(TABLES_EXACT, a_density_without_the_chance_is_rejected);
 #endif
 #endif
 #if QL_CFG_MIRROR

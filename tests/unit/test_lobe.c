@@ -949,35 +949,35 @@ TEST(frames_turn_local_directions_to_the_world)
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_lobe", argc, argv);
-    RUN_IF(QL_CFG_TABLE_LERP, uniform_hemisphere_is_uniform);
+    RUN_IF(TABLES_EXACT, uniform_hemisphere_is_uniform);
     RUN(naive_hemisphere_is_rejected_as_uniform);
-    RUN_IF(QL_CFG_TABLE_LERP, naive_hemisphere_matches_its_own_density);
+    RUN_IF(TABLES_EXACT, naive_hemisphere_matches_its_own_density);
     RUN(uniform_hemisphere_is_rejected_as_naive);
     RUN(uniform_hemisphere_has_exact_marginals);
-    RUN_IF(QL_CFG_TABLE_LERP, naive_hemisphere_has_exact_marginals);
+    RUN_IF(TABLES_EXACT, naive_hemisphere_has_exact_marginals);
     RUN(uniform_and_naive_directions_have_unit_length);
-    RUN_IF(QL_CFG_TABLE_LERP, uniform_hemisphere_moments_are_1_2_and_1_3);
+    RUN_IF(TABLES_EXACT, uniform_hemisphere_moments_are_1_2_and_1_3);
     RUN(hemisphere_of_left_edges_is_rejected);
-    RUN_IF(QL_CFG_TABLE_LERP, naive_density_measures_the_hemisphere);
+    RUN_IF(TABLES_EXACT, naive_density_measures_the_hemisphere);
     RUN(naive_density_is_0_at_the_pole_and_below);
-    RUN_IF(QL_CFG_TABLE_LERP, cosine_lobe_matches_its_density);
+    RUN_IF(TABLES_EXACT, cosine_lobe_matches_its_density);
     RUN(uniform_hemisphere_is_rejected_as_cosine);
     RUN(cosine_lobe_has_exact_marginals);
-    RUN_IF(QL_CFG_TABLE_LERP, cosine_lobe_moments_are_2_3_and_1_2);
+    RUN_IF(TABLES_EXACT, cosine_lobe_moments_are_2_3_and_1_2);
     RUN(cosine_lobe_has_unit_length_and_never_meets_the_horizon);
-    RUN_IF(QL_CFG_TABLE_LERP, cosine_lobe_is_the_cosine_hemisphere_about_z);
+    RUN_IF(TABLES_EXACT, cosine_lobe_is_the_cosine_hemisphere_about_z);
     RUN(cosine_density_is_z_over_pi);
     RUN(power_lobes_have_exact_marginals);
-    RUN_IF(QL_CFG_TABLE_LERP, power_lobes_are_right_by_their_sines_too);
+    RUN_IF(TABLES_EXACT, power_lobes_are_right_by_their_sines_too);
     RUN(power_lobe_is_within_its_error_of_the_exact_s);
-    RUN_IF(QL_CFG_TABLE_LERP, power_lobes_match_their_densities);
+    RUN_IF(TABLES_EXACT, power_lobes_match_their_densities);
     RUN(a_power_lobe_of_exponent_1_over_n_plus_2_is_rejected);
-    RUN_IF(QL_CFG_TABLE_LERP,
+    RUN_IF(TABLES_EXACT,
             a_power_lobe_of_exponent_2_over_n_plus_1_is_rejected);
     RUN(power_lobes_have_unit_length);
-    RUN_IF(QL_CFG_TABLE_LERP, power_0_is_uniform_and_power_1_the_cosine);
+    RUN_IF(TABLES_EXACT, power_0_is_uniform_and_power_1_the_cosine);
     RUN(power_density_is_within_its_error);
-    RUN_IF(QL_CFG_TABLE_LERP, cones_of_any_width_match_their_density);
+    RUN_IF(TABLES_EXACT, cones_of_any_width_match_their_density);
     RUN(a_cone_of_another_width_is_rejected);
     RUN(cone_directions_have_unit_length_and_keep_inside);
     RUN(a_cone_of_no_width_is_its_axis);

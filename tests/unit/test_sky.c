@@ -619,9 +619,9 @@ int main(int argc, char **argv)
     RUN(directions_drawn_have_unit_length);
     RUN(the_ends_of_the_square_are_drawn_too);
     RUN(radiance_over_density_adds_up_to_the_integral);
-    RUN_IF(QL_CFG_TABLE_LERP, directions_fall_in_texels_as_their_masses_say);
+    RUN_IF(TABLES_EXACT, directions_fall_in_texels_as_their_masses_say);
     RUN(a_density_without_the_sine_is_rejected);
-    RUN_IF(QL_CFG_TABLE_LERP, directions_are_even_within_a_single_bright_texel);
+    RUN_IF(TABLES_EXACT, directions_are_even_within_a_single_bright_texel);
 #else
     RUN(a_map_is_named_as_missing);
 #endif

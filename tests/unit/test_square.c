@@ -279,7 +279,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("unit/test_square", argc, argv);
     RUN(disk_is_the_concentric_map);
     RUN(disk_centre_is_never_divided_by);
-    RUN_IF(QL_CFG_TABLE_LERP, disk_is_uniform);
+    RUN_IF(TABLES_EXACT, disk_is_uniform);
     RUN(a_disk_without_the_root_is_rejected);
     RUN(the_square_instead_of_the_disk_is_rejected);
     RUN(disk_moments_are_those_of_the_uniform_density);

@@ -627,7 +627,7 @@ TEST(a_triangle_of_two_square_roots_is_rejected)
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_warp", argc, argv);
-    RUN_IF(QL_CFG_TABLE_LERP, sphere_is_uniform);
+    RUN_IF(TABLES_EXACT, sphere_is_uniform);
     RUN(sphere_of_z_from_0_is_rejected);
     RUN(sphere_points_have_unit_length);
     RUN(sphere_points_are_off_by_no_more_than_the_tables);
@@ -635,14 +635,12 @@ int main(int argc, char **argv)
     RUN(sphere_marginals_are_uniform_over_all_16_bit_numbers);
     RUN(sphere_moments_are_those_of_the_uniform_density);
     RUN(left_edges_instead_of_midpoints_are_rejected);
-    RUN_IF(QL_CFG_TABLE_LERP,
-            cosine_hemisphere_matches_its_pdf_about_any_normal);
-    RUN_IF(QL_CFG_TABLE_LERP, rounded_directions_match_the_pdf_too);
+    RUN_IF(TABLES_EXACT, cosine_hemisphere_matches_its_pdf_about_any_normal);
+    RUN_IF(TABLES_EXACT, rounded_directions_match_the_pdf_too);
     RUN(uniform_directions_instead_of_cosine_are_rejected);
     RUN(cosine_moments_are_those_of_its_density);
     RUN(cosine_of_left_edges_is_rejected);
-    RUN_IF(QL_CFG_TABLE_LERP,
-            directions_below_the_horizon_are_as_rare_as_stated);
+    RUN_IF(TABLES_EXACT, directions_below_the_horizon_are_as_rare_as_stated);
     RUN(rounded_directions_have_full_size_and_a_bounded_angle);
     RUN(a_zero_direction_stays_zero);
     RUN(triangle_map_is_a_bijection_into_the_triangle);
