@@ -563,15 +563,16 @@ static bool header_in_range(const ql_blob_header_t *h)
 /* The tables of every blob, in the order of the header. */
 enum { CAMERA, VERTICES, TRIANGLES, PAIRS, MATERIALS, LIGHTS, BASIC_TABLES };
 
-static const struct {
-    unsigned count_max : 24; /* <= QL_VERTEX_MAX < 2^18 */
-    unsigned entry_bytes : 8;
-} basic[BASIC_TABLES] = {{1, sizeof(ql_blob_camera_t)},
-        {QL_VERTEX_MAX, sizeof(ql_blob_vertex_t)},
-        {QL_TRI_MAX, sizeof(ql_blob_tri_t)},
-        {QL_TRI_MAX, 2 * sizeof(ql_blob_node16_t)},
-        {QL_MATERIAL_MAX, sizeof(ql_blob_material_t)},
-        {QL_LIGHT_MAX, sizeof(ql_blob_light_t)}};
+/* Most entries (at most QL_VERTEX_MAX, below 2^18) and bytes of one (below
+ * 2^8) of each, in a word. */
+#define BASIC(count_max, entry_bytes)                                          \
+    ((uint32_t)(count_max) << 8 | (uint32_t)(entry_bytes))
+static const uint32_t basic[BASIC_TABLES] = {BASIC(1, sizeof(ql_blob_camera_t)),
+        BASIC(QL_VERTEX_MAX, sizeof(ql_blob_vertex_t)),
+        BASIC(QL_TRI_MAX, sizeof(ql_blob_tri_t)),
+        BASIC(QL_TRI_MAX, 2 * sizeof(ql_blob_node16_t)),
+        BASIC(QL_MATERIAL_MAX, sizeof(ql_blob_material_t)),
+        BASIC(QL_LIGHT_MAX, sizeof(ql_blob_light_t))};
 
 static ql_status_t tables_open(ql_scene_t *scene, const ql_blob_header_t *h)
 {
@@ -589,8 +590,8 @@ static ql_status_t tables_open(ql_scene_t *scene, const ql_blob_header_t *h)
     for (unsigned i = 0; i < BASIC_TABLES; i++) {
         at[i] = table_at(h, &h->camera + i,
                 i == PAIRS && scene->node_bits == 8 ? sizeof(ql_blob_pair8_t)
-                                                    : basic[i].entry_bytes,
-                basic[i].count_max, &count[i]);
+                                                    : basic[i] & 0xffu,
+                basic[i] >> 8, &count[i]);
         if (at[i] == NULL) {
             return QL_ERR_RANGE;
         }

@@ -10,9 +10,26 @@ trade: ## Error against instructions of every choice: build/trade.csv, .svg
 trade-quick: ## The same of a few choices, on one core, in a minute
 	@MAKE='$(MAKE)' tools/trade.sh --quick
 
-# tools/trade.sh writes the rules of the measurements and comes back for them.
+# tools/trade.sh writes the rules of the measurements (rules.awk), with ARGS for
+# each, and comes back for them.
 ifneq ($(TRADE_RULES),)
 CORE := $(core_src) $(core_hdr)
+trade_tables := $(wildcard firmware/math/*.c firmware/sample/*.c)
+trade_done = > $@.tmp 2> $@.log && mv $@.tmp $@ && rm -f $@.log
+
+trade_blob = @mkdir -p $(@D) && build/qlux-scene $< -o $@ --quiet \
+    --features $(@:.qlb=.h) $(ARGS) 2> $(@:.qlb=.log)
+trade_reference = @mkdir -p $(@D) && build/qlux-ref $< -o $@ $(ARGS) \
+    --direct mis --bounces 24 --roulette --threads 1 --quiet
+trade_core = @mkdir -p $(@D) && $(CC) $(HOST) $(ARGS) $(filter-out $(patsubst \
+    %.c,build/fine/%.o,$(trade_tables)) $(patsubst \
+    %.c,build/draft/%.o,$(trade_tables)),$^) -o $@ -lm
+trade_error = @$< $(wordlist 2,3,$^) $(ARGS) $(trade_done)
+trade_cost = @$(MAKE) -s --no-print-directory bench-board EMULATED=1 $(ARGS) TRADE_RULES= \
+    BOARD_MAIN='tests/bench/bench_settings.c tests/bench/bench_board.c' \
+    CFLAGS_BOARD='-I$(@D) -UQL_CFG_ADAPTIVE -DQL_CFG_ADAPTIVE=1 \
+    -UQL_CFG_SAMPLERS -DQL_CFG_SAMPLERS=3' $(trade_done)
+
 include $(TRADE_RULES)
 trade-measure: $(TRADE_TARGETS)
 endif
