@@ -972,8 +972,7 @@ int main(int argc, char **argv)
     RUN(power_lobe_is_within_its_error_of_the_exact_s);
     RUN_IF(TABLES_EXACT, power_lobes_match_their_densities);
     RUN(a_power_lobe_of_exponent_1_over_n_plus_2_is_rejected);
-    RUN_IF(TABLES_EXACT,
-            a_power_lobe_of_exponent_2_over_n_plus_1_is_rejected);
+    RUN_IF(TABLES_EXACT, a_power_lobe_of_exponent_2_over_n_plus_1_is_rejected);
     RUN(power_lobes_have_unit_length);
     RUN_IF(TABLES_EXACT, power_0_is_uniform_and_power_1_the_cosine);
     RUN(power_density_is_within_its_error);
