@@ -35,6 +35,7 @@ dir=build/trade
 rules=$dir/rules.mk
 mkdir -p "$dir" || exit 3
 
+tools/setup.sh >&2 || exit # cross compilers and emulators
 awk -v quick=$quick -f tools/trade/rules.awk tools/trade/choices.txt \
     > "$rules" || exit
 $make -s --no-print-directory -j"$(getconf _NPROCESSORS_ONLN)" tools \
