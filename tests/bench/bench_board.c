@@ -3,6 +3,17 @@
 
 #include "bench_board.h"
 
+int bench_run(ql_status_t (*run)(void))
+{
+    ql_status_t status = ql_hal_init();
+
+    if (status == QL_OK) {
+        status = run();
+    }
+    ql_hal_exit(status);
+    return 0;
+}
+
 void bench_print(const char *text)
 {
     uint16_t size = 0;

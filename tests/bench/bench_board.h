@@ -53,6 +53,10 @@ typedef struct {
         (total)->calls += BENCH_REPEAT * (count);                              \
     } while (0)
 
+/* What main() of a benchmark is: bring the board up, run, leave with the status
+ * that run returned. */
+int bench_run(ql_status_t (*run)(void));
+
 /* Print text; the program ends if the serial port does not take it. */
 void bench_print(const char *text);
 

@@ -44,11 +44,5 @@ static ql_status_t run(void)
 
 int main(void)
 {
-    ql_status_t status = ql_hal_init();
-
-    if (status == QL_OK) {
-        status = run();
-    }
-    ql_hal_exit(status);
-    return 0;
+    return bench_run(run);
 }

@@ -13,9 +13,11 @@ trade-quick: ## The same of a few choices, on one core, in a minute
 # tools/trade.sh writes the rules of the measurements (rules.awk), with ARGS for
 # each, and comes back for them.
 ifneq ($(TRADE_RULES),)
-CORE := $(core_src) $(core_hdr)
+CORE := $(core_src) $(core_hdr) tests/bench/bench_settings.c \
+    $(wildcard tests/bench/bench_board.*)
 trade_tables := $(wildcard firmware/math/*.c firmware/sample/*.c)
-trade_done = > $@.tmp 2> $@.log && mv $@.tmp $@ && rm -f $@.log
+trade_done = > $@.tmp 2> $@.log && mv $@.tmp $@ || \
+    { tail -n 5 $@.log >&2; exit 1; }
 
 trade_blob = @mkdir -p $(@D) && build/qlux-scene $< -o $@ --quiet \
     --features $(@:.qlb=.h) $(ARGS) 2> $(@:.qlb=.log)
