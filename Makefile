@@ -6,7 +6,7 @@
 #   make test                   everything
 #
 # SCENE is a name in tests/scenes or the path of any .scene file. The product
-# needs a C99 compiler and make; tools/setup.sh installs what the tests need.
+# needs a C99 compiler and make; tools/dev/setup.sh installs what the tests need.
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -21,13 +21,13 @@ WARN := -Wall -Wextra -Wconversion -Wshadow -Wundef -Wmissing-prototypes
 HOST := -std=c99 -pedantic $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L \
     -Ifirmware -Itools -Ihal -Itests -I.
 
-core_src := $(wildcard firmware/*/*.c)
+core_src := $(filter-out firmware/app/%,$(wildcard firmware/*/*.c))
 core_hdr := $(wildcard firmware/*.h firmware/*/*.h hal/*.h)
-host_hdr := $(core_hdr) $(wildcard tools/*.h tools/*/*.h sim/*.h)
+host_hdr := $(core_hdr) $(wildcard tools/*/*.h tools/*/*/*.h sim/*.h)
 fine := $(core_src:%.c=build/fine/%.o)
 draft := $(core_src:%.c=build/draft/%.o)
-io := $(addprefix build/host/tools/,cli.o image.o png.o deflate.o sums.o \
-    develop.o)
+lib_src := $(wildcard tools/lib/*/*.c)
+io := build/host/lib.a
 
 programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff sheet recv warp \
     ref trade)
@@ -67,37 +67,40 @@ build/host/%.o: %.c $(host_hdr)
 	@mkdir -p $(@D)
 	$(CC) $(HOST) -c $< -o $@
 
-link = $(CC) $(CFLAGS) $(filter %.o,$^) -o $@ -lm
+build/host/lib.a: $(lib_src:%.c=build/host/%.o)
+	rm -f $@ && ar rcs $@ $^
 
-build/qlux-lut: build/host/tools/lut_main.o build/host/tools/cli.o
+link = $(CC) $(CFLAGS) $(filter %.o,$^) $(filter %.a,$^) -o $@ -lm
+
+build/qlux-lut: build/host/tools/lut/lut_main.o $(io) $(fine)
 	$(link)
 
-build/qlux-scene: $(patsubst %.c,build/host/%.o,$(wildcard tools/scene/*.c)) \
+build/qlux-scene: $(patsubst %.c,build/host/%.o,$(wildcard \
+    tools/scene/*.c tools/scene/*/*.c)) \
     $(io) $(fine)
 	$(link)
 
-build/qlux-merge: build/host/tools/merge_main.o $(io) $(fine)
+build/qlux-merge: build/host/tools/merge/merge_main.o $(io) $(fine)
 	$(link)
 
-build/qlux-diff: $(addprefix build/host/tools/,diff_main.o diff_picture.o \
-    font.o) $(io) $(fine)
+build/qlux-diff: $(patsubst %.c,build/host/%.o,$(wildcard tools/diff/*.c)) \
+    $(io) $(fine)
 	$(link)
 
-build/qlux-sheet: $(addprefix build/host/tools/,sheet_main.o font.o) $(io) $(fine)
+build/qlux-sheet: build/host/tools/sheet/sheet_main.o $(io) $(fine)
 	$(link)
 
-build/qlux-recv: build/host/tools/recv_main.o $(io) $(fine)
+build/qlux-recv: build/host/tools/recv/recv_main.o $(io) $(fine)
 	$(link)
 
 build/qlux-warp: $(patsubst %.c,build/host/%.o,$(wildcard tools/warp/*.c \
-    tools/figure/*.c) tools/scene/build_table.c) $(io) $(fine)
+    tools/figure/*.c)) $(io) $(fine)
 	$(link)
 
-build/qlux-ref: $(patsubst %.c,build/host/%.o,$(wildcard tools/ref/*.c) \
-    sim/sim_options.c) $(io) $(fine)
+build/qlux-ref: $(patsubst %.c,build/host/%.o,$(wildcard tools/ref/*.c)) $(io) $(fine)
 	$(link) -lpthread
 
-sim := sim/sim_main.o sim/sim_options.o sim/sim_render.o
+sim := sim/sim_main.o sim/sim_render.o
 
 build/qlux-sim$(tables): $(sim:%=build/fine$(tables)/%) $(io) \
     $(core_src:%.c=build/fine$(tables)/%.o)

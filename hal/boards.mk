@@ -64,7 +64,7 @@ board_name := build/$(BOARD)/$(SCENE)$(if $(filter 1,$(SMALL)),-small)$(if \
     $(filter 1,$(EMULATED)),-emulated)$(VARIANT)
 board_rows := $(BOARD) $(SCENE)$(if $(filter 1,$(SMALL)), small)$(if \
     $(filter 0,$(INDIRECT_BUILT)), direct)
-board_src := $(or $(FIRMWARE_SRC),$(wildcard firmware/*.c firmware/*/*.c)) \
+board_src := $(or $(FIRMWARE_SRC),$(wildcard firmware/*/*.c)) \
     $(filter-out hal/ql_main.c,$(wildcard hal/*.c)) $(BOARD_MAIN) \
     hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
 board_obj := $(addprefix $(board_name)/,$(addsuffix .o,$(board_src)))
@@ -134,7 +134,7 @@ flash: firmware ## Load SCENE onto a real BOARD
 	    $(BOARD_FLASH)
 
 run-emulated: $(board_name).elf build/qlux-recv
-	tools/run_board.sh $(if $(QUIET),--quiet) $< build/$(SCENE)-$(BOARD).ppm \
+	tools/dev/run_board.sh $(if $(QUIET),--quiet) $< build/$(SCENE)-$(BOARD).ppm \
 	    $(BOARD_QEMU)
 
 # What the simulator makes of the same choice; to compare with the board's.
@@ -147,12 +147,12 @@ size-board: $(board_name).elf
 	    '/^\.(text|rodata|data) / { flash += $$2 } \
 	    /^\.(data|bss) / { ram += $$2 } \
 	    END { print name " flash: " flash; print name " ram: " ram }'
-	@stack=$$(tools/stack_report.sh $< $(BOARD_CROSS)objdump \
+	@stack=$$(tools/dev/stack_report.sh $< $(BOARD_CROSS)objdump \
 	    $(board_ci)) && echo "$(board_rows) stack: $$stack"
-	@tools/size_report.sh $< $(BOARD_CROSS) | sed 's/^/$(board_rows) flash-/'
+	@tools/dev/size_report.sh $< $(BOARD_CROSS) | sed 's/^/$(board_rows) flash-/'
 
 test-stack: $(board_name).elf build/qlux-recv
-	tests/boards/test_stack.sh $< $$(tools/stack_report.sh $< \
+	tests/boards/test_stack.sh $< $$(tools/dev/stack_report.sh $< \
 	    $(BOARD_CROSS)objdump $(board_ci)) $(BOARD_CROSS)nm $(BOARD_QEMU)
 
 -include $(board_obj:.o=.d)

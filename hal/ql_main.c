@@ -2,7 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "board.h"
-#include "ql_app.h"
+#include "app/ql_app.h"
 #include "ql_hal.h"
 
 /* QL_APP_WIDTH, QL_APP_HEIGHT: px. QL_APP_SPP: samples a pixel. QL_APP_SEED:

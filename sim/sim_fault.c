@@ -1,7 +1,7 @@
 /* sim_fault.c - make the HAL of the simulator fail at call N */
 /* SPDX-License-Identifier: MIT */
 
-#include "sim_fault.h"
+#include "sim/sim_fault.h"
 
 static struct {
     uint32_t at;

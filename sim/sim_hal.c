@@ -1,14 +1,14 @@
 /* sim_hal.c - ql_hal.h on a PC: memory that checks its caller */
 /* SPDX-License-Identifier: MIT */
 
-#include "sim_hal.h"
+#include "sim/sim_hal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli.h"
-#include "sim_fault.h"
+#include "lib/program/cli.h"
+#include "sim/sim_fault.h"
 
 /* The HAL has no context argument, as a board needs none. */
 static struct {

@@ -1,8 +1,8 @@
 /* sim_hal.h - ql_hal.h on a PC: memory that checks its caller */
 /* SPDX-License-Identifier: MIT */
 
-/* The application loop of the boards (firmware/ql_app.c) runs over this HAL as
- * over any other. Its panel and serial port are memory that a test looks at
+/* The application loop of the boards (firmware/app/ql_app.c) runs over this HAL
+ * as over any other. Its panel and serial port are memory that a test looks at
  * afterwards. Every call is checked as the contract in ql_hal.h words it:
  * order, bounds, null pointers; the first offence is kept in words. Calls that
  * can fail do so when sim_fault.h says. */

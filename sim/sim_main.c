@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "qlux.h"
-#include "sim_options.h"
-#include "sim_render.h"
+#include "lib/render/render_options.h"
+#include "sim/sim_render.h"
 
 #if QL_CFG_PRECISION == 0
 #define PROGRAM   "qlux-sim-draft"
@@ -138,7 +138,7 @@ static void print_stats(const sim_stats_t *s)
 
 /* Everything after the options. Outputs are opened before the work, so a bad
  * path fails at once. */
-static void run(sim_options_t *o, const ql_render_t *render)
+static void run(render_options_t *o, const ql_render_t *render)
 {
     const bool has_picture = o->picture != NULL, has_save = o->save != NULL;
     const bool has_map = o->map != NULL;
@@ -147,7 +147,7 @@ static void run(sim_options_t *o, const ql_render_t *render)
     sim_stats_t stats;
     sums_t sums;
 
-    sim_options_rows(o, render->settings.height);
+    render_options_rows(o, render->settings.height);
     describe(&sums, render);
     sums_new(&sums);
     range.row_first = o->rows.first;
@@ -196,14 +196,14 @@ static void run(sim_options_t *o, const ql_render_t *render)
 
 int main(int argc, char **argv)
 {
-    sim_options_t options;
+    render_options_t options;
     ql_render_t render;
     ql_scene_t scene;
     ql_status_t status;
     void *blob;
 
     cli_begin(PROGRAM);
-    sim_options_parse(&options, argc, argv);
+    render_options_parse(&options, argc, argv);
     blob = open_scene(&scene, options.scene);
     status = ql_render_init(&render, &scene, &options.settings);
     if (status != QL_OK) {

@@ -1,7 +1,7 @@
 /* sim_render.c - render rows on several threads into exact sums */
 /* SPDX-License-Identifier: MIT */
 
-#include "sim_render.h"
+#include "sim/sim_render.h"
 
 #include <pthread.h>
 #include <stdlib.h>

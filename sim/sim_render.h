@@ -5,7 +5,7 @@
 #define SIM_RENDER_H
 
 #include "render/ql_line.h"
-#include "sums.h"
+#include "lib/render/sums.h"
 
 /* ql_diag_t, wide enough for a picture of any size. */
 typedef struct {

@@ -13,17 +13,17 @@ config_draft-san := $(config_draft) $(sanitize)
 # The many others are compiled for unit tests only, and in less time.
 full := fine draft fine-san draft-san
 test_flags = -Werror $(if $(filter $(full),$(1)),-O2 -g,-O1 -g0)
-test_hdr := $(wildcard tests/*.h tests/*/*.h tools/*.h tools/scene/*.h \
-    tools/ref/*.h sim/*.h)
-support := $(wildcard tests/*.c sim/sim_hal.c sim/sim_fault.c sim/sim_render.c \
-    tests/known/double_pt.c tests/bench/bench_rays.c tests/bench/float_pt.c \
-    firmware/*.c) $(addprefix tools/,cli.c image.c png.c deflate.c sums.c \
-    develop.c) $(filter-out %_main.c,$(wildcard tools/scene/*.c))
+test_hdr := $(wildcard tests/*/*.h tests/*/*/*.h) $(filter-out $(core_hdr),$(host_hdr))
+test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
+    $(wildcard sim/sim_hal.c sim/sim_fault.c firmware/app/*.c)
+support := $(test_lib) sim/sim_render.c tests/known/double/double_pt.c \
+    tests/bench/rays/bench_rays.c tests/bench/rays/float_pt.c $(lib_src) \
+    $(filter-out %_main.c,$(wildcard tools/scene/*.c tools/scene/*/*.c))
 # It renders every feature, so it needs a core that has every one.
 reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c)) \
-    tests/known/rounding.c
-support_unit := $(wildcard tests/*.c) sim/sim_hal.c sim/sim_fault.c \
-    $(wildcard firmware/*.c) tools/cli.c tools/scene/build_table.c
+    tests/known/double/rounding.c
+support_unit := $(test_lib) tools/lib/program/cli.c \
+    tools/lib/math/build_table.c
 support_of = $(if $(filter $(full),$(1)),$(support) $(reference),$(support_unit))
 
 # Under configuration $(1): the core, what tests share, and every test.
@@ -50,9 +50,11 @@ $(foreach c,$(configs) fine-san draft-san,$(eval $(call rules_of,$(c))))
 .SECONDARY:
 
 unit := $(patsubst tests/%.c,%,$(wildcard tests/unit/test_*.c))
-tool := $(patsubst tests/%.c,%,$(wildcard tests/tools/test_*.c))
+tool := $(patsubst tests/%.c,%,$(wildcard tests/tools/test_*.c \
+    tests/tools/*/test_*.c))
 extreme := $(patsubst tests/%.c,%,$(wildcard tests/extreme/extreme_*.c))
-known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c) \
+known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c \
+    tests/known/double/known_*.c) \
     $(wildcard tests/stat/stat_*.c))
 
 # Jobs, longest first, so that the last one is short: "name|command".
@@ -71,21 +73,21 @@ jobs_gates := configs/triples|tests/configs/test_gates.sh --triples; \
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
 jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
     tools/diff|tests/tools/test_diff.sh; \
-    tools/scene|tests/tools/test_scene.sh; \
+    tools/scene|tests/tools/scene/test_scene.sh; \
     tools/lut|tests/tools/test_lut.sh; \
     tools/warp|tests/tools/test_warp.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \
     tools/ref|tests/tools/test_ref.sh; \
     tools/recv|tests/tools/test_recv.sh build/qlux-recv build/test/fine/tools/stream_main;
-jobs_lint := lint/layers|tools/check_layers.sh; \
-    lint/docs|tools/check_docs.sh; lint/format|tools/check_format.sh;
+jobs_lint := lint/layers|tests/lint/check_layers.sh; \
+    lint/docs|tests/lint/check_docs.sh; lint/format|tests/lint/check_format.sh;
 jobs_boards := boards|tests/boards/test_boards.sh; \
     tools/trade|tests/tools/test_trade.sh; \
     boards/stack|tests/tools/test_stack_report.sh; \
     bench|tests/bench/test_bench.sh;
 jobs_mutants := mutants|tests/mutants/run.sh;
 jobs_matrix := golden|tests/golden/run_matrix.sh; \
-    objects|tools/check_objects.sh; \
+    objects|tests/lint/check_objects.sh; \
     extreme/build|tests/extreme/extreme_build.sh build;
 
 programs_of = $(filter build/test/%,$(subst |, ,$(subst ;, ,$(1))))
@@ -98,7 +100,7 @@ define run
 endef
 
 test: ## Run everything, on this PC and on every emulated board
-	@tools/setup.sh
+	@tools/dev/setup.sh
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) test-all
 
 test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
@@ -120,7 +122,7 @@ test-known: build/cornell.qlb build/mesh.qlb $(answers) ## Pictures whose answer
 test-san: $(call programs_of,$(jobs_san)) build/cornell.qlb ## Unit and tool tests under ASan and UBSan
 	$(call run,$(jobs_san))
 
-budget := $(foreach c,draft fine,build/test/$(c)/known/known_budget)
+budget := $(foreach c,draft fine,build/test/$(c)/known/double/known_budget)
 
 error-budget: build/cornell.qlb build/mesh.qlb $(budget) ## Error of every stage against double, as DESIGN.md has it
 	@for program in $(budget); do $$program --table || exit; echo; done
@@ -139,13 +141,13 @@ lint: ## Layers, documents, format
 check: lint test ## What must pass before a commit
 
 format: ## Format every C file
-	tools/check_format.sh --write
+	tests/lint/check_format.sh --write
 
 configs-update: ## Rewrite the configurations of tests/configs/gates.txt
 	tests/configs/test_gates.sh --write
 
 docs: ## Bring the generated file lists up to date
-	tools/check_docs.sh --write
+	tests/lint/check_docs.sh --write
 
 golden-update: ## Rewrite the checksums of the golden pictures
 	tests/golden/run_matrix.sh --update

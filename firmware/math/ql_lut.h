@@ -1,8 +1,8 @@
 /* ql_lut.h - what each table holds, its format, its worst error */
 /* SPDX-License-Identifier: MIT */
 
-/* All tables come from tools/lut_main.c and are regenerated and compared by the
- * tests. Their worst errors stand beside them in ql_lut_data.c. */
+/* All tables come from tools/lut/lut_main.c and are regenerated and compared by
+ * the tests. Their worst errors stand beside them in ql_lut_data.c. */
 
 #ifndef QL_LUT_H
 #define QL_LUT_H

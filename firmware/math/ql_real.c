@@ -7,7 +7,7 @@
 static uint32_t recip_entry(uint32_t i)
 {
 #if QL_CFG_SMALL
-    /* 2^25 / (2 i + 257), half up, as tools/lut_main.c has it: 18 bits of a
+    /* 2^25 / (2 i + 257), half up, as tools/lut/lut_main.c has it: 18 bits of a
      * division, of which the first 9 are 0 */
     const uint32_t m = (2 * i + 257u) << 17;
     uint32_t rest = (uint32_t)1 << 25, quotient = 0;

@@ -3,10 +3,10 @@
 
 #include "render/ql_direct.h"
 
-#include "render/ql_aim.h"
-#include "sample/ql_warp.h"
-#include "scene/ql_light.h"
-#include "scene/ql_sky.h"
+#include "light/ql_aim.h"
+#include "warp/ql_warp.h"
+#include "light/ql_light.h"
+#include "light/ql_sky.h"
 #include "trace/ql_bvh.h"
 
 /* Points of triangles, seen from flat diffuse surfaces, are all there is. */

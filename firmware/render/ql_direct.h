@@ -13,7 +13,7 @@
 #include "math/ql_rgb.h"
 #include "render/ql_film.h"
 #include "sample/ql_sampler.h"
-#include "scene/ql_bsdf.h"
+#include "material/ql_bsdf.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
 

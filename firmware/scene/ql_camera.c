@@ -4,8 +4,8 @@
 #include "scene/ql_camera.h"
 
 #include "math/ql_real.h"
-#include "sample/ql_square.h"
-#include "sample/ql_warp.h"
+#include "warp/ql_square.h"
+#include "warp/ql_warp.h"
 
 /* The box in s.16 grid units. */
 #define BOX_MAX_Q16 ((int64_t)QL_GRID_MAX << 16)

@@ -1,7 +1,7 @@
 /* bench_board.c - what the boards' benchmarks share: rows, counter, paths */
 /* SPDX-License-Identifier: MIT */
 
-#include "bench_board.h"
+#include "bench/bench_board.h"
 
 int bench_run(ql_status_t (*run)(void))
 {

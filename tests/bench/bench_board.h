@@ -4,7 +4,7 @@
 #ifndef BENCH_BOARD_H
 #define BENCH_BOARD_H
 
-#include "bench_rays.h"
+#include "bench/rays/bench_rays.h"
 #include "board.h"
 #include "ql_hal.h"
 

@@ -1,12 +1,12 @@
 /* bench_main.c - instructions per ray, warp and path on an emulated board */
 /* SPDX-License-Identifier: MIT */
 
-/* Linked in the place of hal/ql_main.c and firmware/ql_app.c. Where the board's
- * counter counts instructions (README.md), every figure is a mean number of
- * instructions, calls included, the loop around them taken off. With
+/* Linked in the place of hal/ql_main.c and firmware/app/ql_app.c. Where the
+ * board's counter counts instructions (README.md), every figure is a mean
+ * number of instructions, calls included, the loop around them taken off. With
  * QL_BENCH_FLOAT 1 it measures float_pt.c too. */
 
-#include "bench_board.h"
+#include "bench/bench_board.h"
 #include "trace/ql_bvh.h"
 
 /* QL_BENCH_FLOAT: 0 or 1. QL_BENCH_BATCH: rays held in memory.
@@ -22,7 +22,7 @@
 #endif
 
 #if QL_BENCH_FLOAT
-#include "float_pt.h"
+#include "bench/rays/float_pt.h"
 #endif
 
 static ql_ray_t closest[QL_BENCH_BATCH], shadow[QL_BENCH_BATCH];

@@ -1,10 +1,11 @@
 /* bench_settings.c - instructions per sample under each of some settings */
 /* SPDX-License-Identifier: MIT */
 
-/* The list is in trade_settings.h, which tools/trade.sh writes. Every third
- * pixel of every third line is rendered: the samples of a picture, fewer. */
+/* The list is in trade_settings.h, which tools/trade/trade.sh writes. Every
+ * third pixel of every third line is rendered: the same samples, fewer of them.
+ */
 
-#include "bench_board.h"
+#include "bench/bench_board.h"
 #include "trade_settings.h"
 
 #define STEP 3u

@@ -4,7 +4,7 @@
 /* As bench_main.c, but only whole paths, and SCENE any scene. The core has all
  * strategies only if it is built with QL_CFG_STRATEGIES 1. */
 
-#include "bench_board.h"
+#include "bench/bench_board.h"
 
 static ql_status_t measure(const char *name, ql_direct_t direct)
 {

@@ -5,7 +5,7 @@
  * goes out first, so that the report is found between frames. */
 
 #include "board.h"
-#include "ql_app.h"
+#include "app/ql_app.h"
 
 int main(void);
 uint8_t fall(volatile uint8_t *above);

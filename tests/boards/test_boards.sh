@@ -79,7 +79,7 @@ stops() {
         BOARD_MAIN=tests/boards/fault_main.c CFLAGS_BOARD=-DTEST_FAULT="$3" ||
         return
     # shellcheck disable=SC2046 # a command and its arguments
-    tools/run_board.sh --quiet "$fault.elf" "build/$1/fault.ppm" \
+    tools/dev/run_board.sh --quiet "$fault.elf" "build/$1/fault.ppm" \
         $(emulator "$1")
     status=$?
     note="status $status"

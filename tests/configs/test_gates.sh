@@ -105,7 +105,7 @@ if [ "${1:-}" = --triples ]; then
         if (cd "$work" && $CC -std=c99 -pedantic -ffreestanding -fPIC -Wall \
             -Wextra -Wconversion -Wshadow -Wundef -Wmissing-prototypes -Werror \
             -O0 -g0 -pipe $flags -I"$root/firmware" -I"$root/hal" -shared \
-            -nostdlib "$root"/firmware/*.c "$root"/firmware/*/*.c -o core.so) \
+            -nostdlib "$root"/firmware/*/*.c -o core.so) \
             2> "$work/errors" &&
             nm -u "$work/core.so" > "$work/undefined" &&
             ! grep ' ql_' "$work/undefined" |

@@ -3,17 +3,17 @@
 
 #include <math.h>
 
-#include "estimate.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "sample/ql_alias.h"
 #include "sample/ql_cdf.h"
 #include "sample/ql_sampler.h"
 #include "sample/ql_sobol.h"
 #include "sample/ql_table.h"
-#include "scene/build_cdf.h"
-#include "scene/build_table.h"
-#include "scene/ql_light.h"
+#include "lib/math/build_cdf.h"
+#include "lib/math/build_table.h"
+#include "light/ql_light.h"
 
 static mini_scene_t m;
 static uint64_t state;

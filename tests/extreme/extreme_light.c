@@ -3,14 +3,14 @@
 
 #include <math.h>
 
-#include "estimate.h"
-#include "lambert.h"
-#include "ql_points.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/picture/lambert.h"
+#include "support/ql_points.h"
+#include "support/ql_test.h"
 #include "qlux.h"
-#include "render/ql_aim.h"
+#include "light/ql_aim.h"
 #include "render/ql_direct.h"
-#include "sample/ql_warp.h"
+#include "warp/ql_warp.h"
 #include "trace/ql_sphere.h"
 
 #define PI       3.14159265358979323846

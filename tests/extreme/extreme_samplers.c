@@ -3,16 +3,16 @@
 
 #include <math.h>
 
-#include "mini_scene.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "sample/ql_alias.h"
-#include "sample/ql_lobe.h"
+#include "warp/ql_lobe.h"
 #include "sample/ql_sampler.h"
-#include "sample/ql_spherical.h"
-#include "sample/ql_square.h"
-#include "sample/ql_warp.h"
-#include "scene/ql_bsdf.h"
+#include "warp/ql_spherical.h"
+#include "warp/ql_square.h"
+#include "warp/ql_warp.h"
+#include "material/ql_bsdf.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface.h"
 

@@ -4,16 +4,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "lambert.h"
-#include "ql_points.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/picture/lambert.h"
+#include "support/ql_points.h"
+#include "support/ql_test.h"
 #include "qlux.h"
-#include "sample/ql_warp.h"
-#include "scene/build_bvh.h"
-#include "scene/model.h"
-#include "scene/quantise.h"
-#include "scene/write_blob.h"
+#include "warp/ql_warp.h"
+#include "scene/mesh/build_bvh.h"
+#include "scene/blob/model.h"
+#include "scene/mesh/quantise.h"
+#include "scene/blob/write_blob.h"
 #include "trace/ql_bvh.h"
 
 #define RADIANCE 0.5

@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "estimate.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_test.h"
 #include "qlux.h"
-#include "film_add.h"
+#include "support/picture/film_add.h"
 
 static mini_scene_t m;
 static ql_scene_t scene;

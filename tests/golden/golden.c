@@ -25,12 +25,12 @@
 #include "qlux.h"
 #include "render/ql_path.h"
 #include "sample/ql_hash.h"
-#include "sample/ql_lobe.h"
+#include "warp/ql_lobe.h"
 #include "sample/ql_sampler.h"
 #include "sample/ql_sobol.h"
-#include "sample/ql_spherical.h"
-#include "sample/ql_square.h"
-#include "sample/ql_warp.h"
+#include "warp/ql_spherical.h"
+#include "warp/ql_square.h"
+#include "warp/ql_warp.h"
 
 /* Other tables are other pictures: two choices have checksums. */
 #if QL_CFG_TABLE_BITS == 7 && QL_CFG_TABLE_LERP

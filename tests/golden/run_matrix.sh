@@ -20,6 +20,7 @@ warn='-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef'
 warn="$warn -Wmissing-prototypes -Werror"
 failed=0
 ran=0
+core=$(ls firmware/*/*.c | grep -v /app/)
 nearest='-DQL_CFG_TABLE_BITS=5 -DQL_CFG_TABLE_LERP=0'
 lerp='-DQL_CFG_TABLE_BITS=10 -DQL_CFG_TABLE_LERP=1'
 
@@ -41,7 +42,7 @@ done
 build()
 {
     # shellcheck disable=SC2086  # COMPILER and FLAGS are lists of words
-    $2 $warn $3 -Ifirmware -Ihal firmware/*/*.c tests/golden/golden.c \
+    $2 $warn $3 -Ifirmware -Ihal $core tests/golden/golden.c \
         -o "$out/$1"
 }
 

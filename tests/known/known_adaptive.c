@@ -12,9 +12,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "lambert.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/picture/lambert.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 #include "render/ql_adaptive.h"
 

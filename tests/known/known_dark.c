@@ -3,8 +3,8 @@
 
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_test.h"
 
 static mini_scene_t m;
 

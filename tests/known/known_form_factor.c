@@ -11,12 +11,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "lambert.h"
-#include "ql_test.h"
-#include "film_add.h"
+#include "support/estimate.h"
+#include "support/picture/lambert.h"
+#include "support/ql_test.h"
+#include "support/picture/film_add.h"
 #include "sample/ql_sampler.h"
-#include "scene/ql_light.h"
+#include "light/ql_light.h"
 
 #define PI  3.14159265358979323846
 #define ULP (1.0 / (1 << QL_POS_BITS)) /* grid units */

@@ -12,11 +12,11 @@
 
 #include <math.h>
 
-#include "estimate.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 #include "render/ql_direct.h"
-#include "sample/ql_warp.h"
+#include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface.h"
 

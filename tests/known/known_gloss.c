@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 
 #define PI  3.14159265358979323846

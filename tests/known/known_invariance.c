@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#include "estimate.h"
-#include "picture.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/picture/picture.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 
 enum { SIZE = 24, VALUES = 3 * SIZE * SIZE };

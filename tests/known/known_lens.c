@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 
 #define RADIANCE 0.5

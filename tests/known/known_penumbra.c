@@ -3,9 +3,9 @@
 
 #include <math.h>
 
-#include "estimate.h"
-#include "lambert.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/picture/lambert.h"
+#include "support/ql_test.h"
 
 #define RADIANCE 0.5
 #define ULP      (1.0 / (1 << QL_POS_BITS)) /* grid units */

@@ -8,11 +8,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "estimate.h"
-#include "ql_test.h"
+#include "support/estimate.h"
+#include "support/ql_test.h"
 #include "qlux.h"
-#include "render/ql_aim.h"
-#include "sample/ql_warp.h"
+#include "light/ql_aim.h"
+#include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
 

@@ -29,7 +29,7 @@ readme=$here/README.md
 CC=${CC:-cc}
 LIMIT=${LIMIT:-120}
 flags="-std=c99 -O1 -w -D_POSIX_C_SOURCE=200809L"
-rest="-Ifirmware -Itools -Ihal -Itests -I. -Isim -Itests/known -Itests/bench"
+rest="-Ifirmware -Itools -Ihal -Itests -I."
 jobs=$(getconf _NPROCESSORS_ONLN)
 work=${WORK:-build/mutants}
 
@@ -102,7 +102,7 @@ plant()
 # What may see a header of the core: itself and what tests share.
 seeing()
 {
-    ls firmware/*/*.c firmware/*.c tests/*.c tools/scene/*.c
+    ls firmware/*/*.c tests/support/*.c tests/support/*/*.c tools/scene/*.c tools/scene/*/*.c
 }
 
 # NAME: the sources that its file is part of; of a header also the tests named.
@@ -200,7 +200,7 @@ lives()
                 compile "$build" "tests/$2.c" "$object" "$dir" || return 0
             ;;
         esac
-        $CC "$object" $(find "$dir/firmware" "$dir"/tests/*.o \
+        $CC "$object" $(find "$dir/firmware" "$dir/tests/support" \
             "$dir/tools" -name '*.o' 2> /dev/null) "$base/support.a" \
             "$base/core.a" "$base/support.a" -o "$dir/$2" -lm -lpthread \
             2> "$dir/errors" || return 0
@@ -244,7 +244,7 @@ others()
 all_tests() # those of the core, the quick ones first
 {
     for source in tests/unit/test_*.c tests/extreme/extreme_*.c \
-        tests/known/known_*.c; do
+        tests/known/known_*.c tests/known/double/known_*.c; do
         test=${source#tests/}
         echo "${test%.c}"
     done
@@ -286,12 +286,12 @@ prepare()
 # A fault that is none must not pass for one.
 identity()
 {
-    echo "fine firmware/sample/ql_warp.c" | each --base-object
+    echo "fine firmware/warp/ql_warp.c" | each --base-object
     {
         cat $list
         printf '\nmutant %s\n' none_at_all
-        echo "file firmware/sample/ql_warp.c"
-        sed -n '/^#include/{s/^/ /;p;q;}' firmware/sample/ql_warp.c
+        echo "file firmware/warp/ql_warp.c"
+        sed -n '/^#include/{s/^/ /;p;q;}' firmware/warp/ql_warp.c
     } > "$work/with_none"
     if LIST=$work/with_none WORK=$work "$0" --check-one none_at_all |
         grep -q 'changes_the_code .*FAIL'; then

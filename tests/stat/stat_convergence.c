@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "picture.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/picture/picture.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 
 enum { SIZE = 16, VALUES = 3 * SIZE * SIZE, SEEDS = 8 };

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ql_stream.h"
+#include "app/ql_stream.h"
 
 static uint8_t stream[1 << 20];
 static size_t stream_size;

@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
-#include "deflate.h"
-#include "develop.h"
+#include "lib/image/deflate.h"
+#include "lib/render/develop.h"
 
 static int failures;
 

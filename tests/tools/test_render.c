@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-#include "box_scene.h"
-#include "develop.h"
+#include "support/picture/box_scene.h"
+#include "lib/render/develop.h"
 #include "qlux.h"
 #include "sim/sim_render.h"
 

@@ -6,7 +6,7 @@
 # Example: tests/tools/test_sheet.sh build
 
 suite=tools/test_sheet
-. "$(dirname "$0")/claims.sh"
+. "$(dirname "$0")/../support/claims.sh"
 sheet=$build/qlux-sheet
 diff=$build/qlux-diff
 

@@ -20,7 +20,7 @@ report() {
         -fno-optimize-sibling-calls -fno-inline -c "$dir/x.c" -o "$dir/x.o" &&
         $cross-gcc -mcpu=cortex-m0 -nostdlib -Wl,-e,ql_cpu_reset "$dir/x.o" \
             -lgcc -o "$dir/x.elf" &&
-        tools/stack_report.sh "$dir/x.elf" $cross-objdump "$dir/x.ci" \
+        tools/dev/stack_report.sh "$dir/x.elf" $cross-objdump "$dir/x.ci" \
             >"$dir/out" 2>"$dir/err"
 }
 

@@ -6,7 +6,7 @@
 # Example: tests/tools/test_trade.sh build
 
 suite=tools/test_trade
-. "$(dirname "$0")/claims.sh"
+. "$(dirname "$0")/../support/claims.sh"
 trade=$build/qlux-trade
 make=${MAKE:-make}
 
@@ -94,7 +94,7 @@ say a_bad_line_of_choices_is_named $?
 
 # quick: run it; its last lines are what it recommends
 quick() {
-    tools/trade.sh --quick >"$work/said.txt" 2>"$work/log"
+    tools/trade/trade.sh --quick >"$work/said.txt" 2>"$work/log"
 }
 
 quick

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "built.h"
-#include "mini_scene.h"
-#include "ql_stats.h"
-#include "ql_test.h"
-#include "ql_wide.h"
+#include "support/picture/built.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
+#include "support/ql_wide.h"
 #include "qlux.h"
 #include "render/ql_adaptive.h"
 

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "sample/ql_alias.h"
 #include "sample/ql_table.h"
-#include "scene/build_table.h"
+#include "lib/math/build_table.h"
 
 enum { COUNT_MAX = 65535, VECTORS = 3000, DRAWS = 1 << 20 };
 

@@ -4,13 +4,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "built.h"
-#include "estimate.h"
-#include "mini_scene.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/picture/built.h"
+#include "support/estimate.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "qlux.h"
-#include "sample/ql_square.h"
+#include "warp/ql_square.h"
 
 enum { WIDTH = 32, HEIGHT = 24, SPP = 8 };
 

@@ -9,9 +9,9 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
-#include "box_scene.h"
-#include "cli.h"
-#include "ql_app.h"
+#include "support/picture/box_scene.h"
+#include "lib/program/cli.h"
+#include "app/ql_app.h"
 #include "sim/sim_fault.h"
 #include "sim/sim_hal.h"
 

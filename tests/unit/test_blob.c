@@ -8,10 +8,10 @@
 #include <stdlib.h>
 
 #include "base/ql_crc.h"
-#include "built.h"
-#include "mini_scene.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/picture/built.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "qlux.h"
 
 enum { DAMAGED = 20000 };

@@ -3,13 +3,13 @@
 
 #include <math.h>
 
-#include "ql_points.h"
-#include "ql_stats.h"
-#include "ql_table_error.h"
-#include "ql_test.h"
-#include "sample/ql_lobe.h"
-#include "sample/ql_warp.h"
-#include "scene/ql_bsdf.h"
+#include "support/ql_points.h"
+#include "support/ql_stats.h"
+#include "support/ql_table_error.h"
+#include "support/ql_test.h"
+#include "warp/ql_lobe.h"
+#include "warp/ql_warp.h"
+#include "material/ql_bsdf.h"
 
 #define PI 3.14159265358979323846
 

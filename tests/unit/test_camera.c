@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mini_scene.h"
-#include "ql_stats.h"
-#include "ql_test.h"
-#include "sample/ql_square.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
+#include "warp/ql_square.h"
 #include "scene/ql_camera.h"
 
 #define ONE (1 << QL_POS_BITS)

@@ -1,8 +1,8 @@
 /* test_cdf.c - discrete choice: counts equal masses exactly */
 /* SPDX-License-Identifier: MIT */
 
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "sample/ql_cdf.h"
 
 enum { COUNT_MAX = 65535, STRIDE = 3 };

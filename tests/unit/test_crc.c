@@ -2,8 +2,8 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "base/ql_crc.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 
 #define POLYNOMIAL 0xedb88320u /* 0x04c11db7 reflected */
 

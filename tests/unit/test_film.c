@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "base/ql_settings.h"
-#include "film_add.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/picture/film_add.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 
 static const ql_real_t one = {0x80000000u, -31};
 

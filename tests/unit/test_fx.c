@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "math/ql_fx.h"
-#include "ql_nasty.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_nasty.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 
 enum { RANDOM_PAIRS = 4000000 };
 

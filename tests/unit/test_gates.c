@@ -1,7 +1,7 @@
 /* test_gates.c - settings that need a part this build lacks are refused */
 /* SPDX-License-Identifier: MIT */
 
-#include "ql_test.h"
+#include "support/ql_test.h"
 #include "render/ql_line.h"
 
 static ql_status_t init_with(const ql_settings_t *settings)

@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "sample/ql_hash.h"
-#include "ql_nasty.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_nasty.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 
 /* a^-1 modulo 2^32 of an odd a: each step doubles the correct bits from 3. */
 static uint32_t inverse(uint32_t a)

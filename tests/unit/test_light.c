@@ -4,12 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "mini_scene.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "base/ql_settings.h"
-#include "sample/ql_warp.h"
-#include "scene/ql_light.h"
+#include "warp/ql_warp.h"
+#include "light/ql_light.h"
 
 #if QL_CFG_LIGHTS
 

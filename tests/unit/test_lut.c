@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "math/ql_lut.h"
-#include "ql_test.h"
+#include "support/ql_test.h"
 
 /* Half a unit, and what double may err: far less than any entry's distance
  * from a tie. */

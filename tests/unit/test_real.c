@@ -4,10 +4,10 @@
 #include <math.h>
 
 #include "math/ql_real.h"
-#include "ql_nasty.h"
-#include "ql_stats.h"
-#include "ql_table_error.h"
-#include "ql_test.h"
+#include "support/ql_nasty.h"
+#include "support/ql_stats.h"
+#include "support/ql_table_error.h"
+#include "support/ql_test.h"
 
 /* Odd, so the mantissas that are tried differ in all their low bits. */
 enum { STRIDE = 61 };

@@ -4,9 +4,9 @@
 #include <math.h>
 
 #include "math/ql_rgb.h"
-#include "ql_nasty.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_nasty.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 
 /* An ulp of 2^-30 of the largest channel is this times it. */
 #define ULP 0x1p-30

@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-#include "ql_stats.h"
-#include "ql_table_error.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_table_error.h"
+#include "support/ql_test.h"
 #include "sample/ql_table.h"
-#include "scene/build_table.h"
-#include "scene/ql_sky.h"
+#include "lib/math/build_table.h"
+#include "light/ql_sky.h"
 
 #if QL_CFG_SKY_MAP
 

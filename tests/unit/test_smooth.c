@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-#include "mini_scene.h"
-#include "ql_points.h"
-#include "ql_stats.h"
-#include "ql_test.h"
-#include "sample/ql_warp.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_points.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
+#include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface.h"
 #include "trace/ql_tri.h"

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "sample/ql_sobol.h"
 
 /* Scrambling of a natural-order number: "nested uniform scramble". */

@@ -3,12 +3,12 @@
 
 #include <math.h>
 
-#include "mini_scene.h"
-#include "ql_points.h"
-#include "ql_stats.h"
-#include "ql_test.h"
-#include "ql_wide.h"
-#include "sample/ql_warp.h"
+#include "support/picture/mini_scene.h"
+#include "support/ql_points.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
+#include "support/ql_wide.h"
+#include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
 #include "trace/ql_surface.h"

@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "ql_stats.h"
-#include "ql_test.h"
-#include "sample/ql_spherical.h"
-#include "sample/ql_warp.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
+#include "warp/ql_spherical.h"
+#include "warp/ql_warp.h"
 
 #define AREA_ERROR 1e-8 /* relative */
 #define SIDE_ERROR 1e-8 /* of a component, and of the length */

@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "ql_stats.h"
-#include "ql_table_error.h"
-#include "ql_test.h"
-#include "sample/ql_square.h"
+#include "support/ql_stats.h"
+#include "support/ql_table_error.h"
+#include "support/ql_test.h"
+#include "warp/ql_square.h"
 
 #define PI           3.14159265358979323846
 #define RADIUS_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.1e-5 : 5.1e-8)

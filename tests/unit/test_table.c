@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 #include "sample/ql_table.h"
-#include "scene/build_table.h"
+#include "lib/math/build_table.h"
 
 enum { CELLS_MAX = 65536, WORDS_MAX = 2 * CELLS_MAX, DRAWS = 1 << 20 };
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "ql_test.h"
+#include "support/ql_test.h"
 #include "render/ql_tonemap.h"
 
 #define WHITE       65536u

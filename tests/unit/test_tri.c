@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "ql_stats.h"
-#include "ql_test.h"
-#include "ql_wide.h"
-#include "sample/ql_warp.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
+#include "support/ql_wide.h"
+#include "warp/ql_warp.h"
 #include "trace/ql_tri.h"
 
 enum { LOW = QL_GRID_MARGIN, HIGH = QL_GRID_MAX - QL_GRID_MARGIN };

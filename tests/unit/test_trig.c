@@ -5,10 +5,10 @@
 
 #include "math/ql_lut.h"
 #include "math/ql_trig.h"
-#include "ql_nasty.h"
-#include "ql_stats.h"
-#include "ql_table_error.h"
-#include "ql_test.h"
+#include "support/ql_nasty.h"
+#include "support/ql_stats.h"
+#include "support/ql_table_error.h"
+#include "support/ql_test.h"
 
 #define BOUND SINE_ERROR
 #define ONE   (1l << 30)

@@ -2,8 +2,8 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "math/ql_vec.h"
-#include "ql_stats.h"
-#include "ql_test.h"
+#include "support/ql_stats.h"
+#include "support/ql_test.h"
 
 static const int32_t ends[] = {-32767, -32766, -1, 0, 1, 2, 32766, 32767};
 

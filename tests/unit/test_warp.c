@@ -4,10 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "ql_stats.h"
-#include "ql_table_error.h"
-#include "ql_test.h"
-#include "sample/ql_warp.h"
+#include "support/ql_stats.h"
+#include "support/ql_table_error.h"
+#include "support/ql_test.h"
+#include "warp/ql_warp.h"
 
 #define PI           3.14159265358979323846
 #define LENGTH_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.3e-5 : 5e-8)

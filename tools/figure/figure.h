@@ -7,7 +7,7 @@
 #ifndef FIGURE_H
 #define FIGURE_H
 
-#include "image.h"
+#include "lib/image/image.h"
 
 typedef enum { FIGURE_PATH, FIGURE_AREA, FIGURE_DOTS, FIGURE_TEXT } figure_as_t;
 typedef enum { FIGURE_LEFT, FIGURE_MIDDLE, FIGURE_RIGHT } figure_anchor_t;

@@ -13,7 +13,7 @@
 #include <stdbool.h>
 
 #include "base/ql_settings.h"
-#include "ref_vec.h"
+#include "ref/ref_vec.h"
 #include "scene/ql_blob.h"
 
 /* A material: as its entries in the blob, in numbers. */

@@ -1,9 +1,9 @@
 /* ref_aim.c - directions towards triangles, spheres and the sky */
 /* SPDX-License-Identifier: MIT */
 
-#include "ref_parts.h"
+#include "ref/ref_parts.h"
 #include "sample/ql_table.h"
-#include "scene/ql_light.h"
+#include "light/ql_light.h"
 
 double ref_light_chance(
         const ref_scene_t *scene, const ql_settings_t *s, uint32_t light)

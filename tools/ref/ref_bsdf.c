@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "ref_parts.h"
+#include "ref/ref_parts.h"
 
 static double chance_of(const ref_material_t *material)
 {

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "qlux.h"
-#include "ref.h"
-#include "sim/sim_options.h"
+#include "ref/ref.h"
+#include "lib/render/render_options.h"
 
 #define STEP_SAMPLES 4096u /* between two looks at Ctrl-C */
 
@@ -39,7 +39,7 @@ static const char help[] =
 typedef struct {
     pthread_mutex_t lock;
     const ref_scene_t *scene;
-    const sim_options_t *options;
+    const render_options_t *options;
     double *rgb; /* sums in radiance units */
     uint32_t next_row;
     uint64_t done, total; /* samples */
@@ -143,7 +143,7 @@ static void report(job_t *job, ref_stats_t *stats, uint64_t *samples)
 
 static void render_row(job_t *job, uint32_t y, ref_stats_t *stats)
 {
-    const sim_options_t *o = job->options;
+    const render_options_t *o = job->options;
     const uint32_t width = o->settings.width;
     uint64_t fresh = 0;
 
@@ -205,7 +205,7 @@ static void render(job_t *job)
 /* Means as a picture of floats. */
 static void write_linear(const job_t *job, cli_out_t *out)
 {
-    const sim_options_t *o = job->options;
+    const render_options_t *o = job->options;
     const double scale = job->scene->unit / (o->samples.end - o->samples.first);
     image_t image;
 
@@ -220,7 +220,7 @@ static void write_linear(const job_t *job, cli_out_t *out)
 /* As a display shows it, by way of the core's sums. */
 static void write_display(const job_t *job, cli_out_t *out)
 {
-    const sim_options_t *o = job->options;
+    const render_options_t *o = job->options;
     const ql_blob_header_t *h = job->scene->blob->header;
     const sums_range_t range = {
             o->rows.first, o->rows.end, o->samples.first, o->samples.end};
@@ -261,7 +261,7 @@ static void print_stats(const ref_stats_t *s, double seconds)
 }
 
 /* Width and height as they will be; rows within them. */
-static void resolve(sim_options_t *o, const ql_scene_t *scene)
+static void resolve(render_options_t *o, const ql_scene_t *scene)
 {
     const ql_blob_header_t *h = scene->header;
 
@@ -269,13 +269,13 @@ static void resolve(sim_options_t *o, const ql_scene_t *scene)
         o->settings.width = QL_LE16(h->image_width);
         o->settings.height = QL_LE16(h->image_height);
     }
-    sim_options_rows(o, o->settings.height);
+    render_options_rows(o, o->settings.height);
 }
 
 int main(int argc, char **argv)
 {
     const double begun = cli_seconds();
-    sim_options_t options;
+    render_options_t options;
     ref_scene_t scene;
     ql_scene_t blob;
     cli_out_t out;
@@ -284,7 +284,7 @@ int main(int argc, char **argv)
 
     cli_begin("qlux-ref");
     options_of_its_own(argc, argv);
-    sim_options_parse(&options, argc, argv);
+    render_options_parse(&options, argc, argv);
     bytes = open_scene(&blob, options.scene);
     resolve(&options, &blob);
     ref_scene_init(&scene, &blob);

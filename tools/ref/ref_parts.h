@@ -4,7 +4,7 @@
 #ifndef REF_PARTS_H
 #define REF_PARTS_H
 
-#include "ref.h"
+#include "ref/ref.h"
 #include "sample/ql_sampler.h"
 
 /* ---- Rays -------------------------------------------------------------- */
@@ -141,8 +141,8 @@ void ref_sky(const ref_scene_t *scene, ref_vec_t w, double emission[3]);
 /* ---- What a test may do to exact results -------------------------------- */
 
 /* Each function is called with the exact result of a stage and may change it,
- * as the core's rounding of that stage does: tests/known/known_budget.c. Any
- * may be NULL. They are for diffuse surfaces and lights that are triangles,
+ * as the core's rounding of that stage does: tests/known/double/known_budget.c.
+ * Any may be NULL. They are for diffuse surfaces and lights that are triangles,
  * drawn by points; other estimators pass them by. Vectors are in grid units. */
 typedef struct ref_rounding {
     void *data; /* the first argument of each */

@@ -4,8 +4,8 @@
 /* Which rays are drawn, what each may see and which random numbers it takes is
  * as in render/ql_path.c and render/ql_direct.c. */
 
-#include "ref_parts.h"
-#include "scene/ql_light.h"
+#include "ref/ref_parts.h"
+#include "light/ql_light.h"
 
 typedef enum { SEES_NOTHING, SEES_ALL, SEES_A_SHARE } sight_t;
 

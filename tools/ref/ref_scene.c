@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli.h"
-#include "ref.h"
+#include "lib/program/cli.h"
+#include "ref/ref.h"
 #include "scene/ql_scene.h"
 
 static double fixed(uint32_t word, int fraction_bits)

@@ -7,7 +7,7 @@
  * within NEAR of either end does not count: those are surfaces that lie in the
  * same place, the only ones that are met there but by chance. */
 
-#include "ref_parts.h"
+#include "ref/ref_parts.h"
 
 #define NEAR 1e-7  /* grid units; a fine position has 4e-3 */
 #define EDGE 1e-11 /* barycentric: neighbours overlap, so that none is missed */

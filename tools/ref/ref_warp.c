@@ -1,7 +1,7 @@
 /* ref_warp.c - the core's maps from the square, in double precision */
 /* SPDX-License-Identifier: MIT */
 
-#include "ref_parts.h"
+#include "ref/ref_parts.h"
 
 ref_vec_t ref_warp_sphere(double u1, double u2)
 {

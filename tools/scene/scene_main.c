@@ -6,16 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "build_bvh.h"
-#include "cli.h"
-#include "dump_blob.h"
-#include "model.h"
-#include "parse_dump.h"
-#include "quantise.h"
-#include "read_blob.h"
-#include "read_scene.h"
-#include "scene_features.h"
-#include "write_blob.h"
+#include "scene/mesh/build_bvh.h"
+#include "lib/program/cli.h"
+#include "scene/blob/dump_blob.h"
+#include "scene/blob/model.h"
+#include "scene/blob/parse_dump.h"
+#include "scene/mesh/quantise.h"
+#include "scene/blob/read_blob.h"
+#include "scene/read/read_scene.h"
+#include "scene/blob/scene_features.h"
+#include "scene/blob/write_blob.h"
 
 static const char help[] =
         "qlux-scene - compile a scene into a blob, show and edit blobs\n"

@@ -1,13 +1,13 @@
 /* world.c - a scene as its files describe it: reals, any size */
 /* SPDX-License-Identifier: MIT */
 
-#include "world.h"
+#include "scene/world.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli.h"
-#include "alloc.h"
+#include "lib/program/cli.h"
+#include "lib/program/alloc.h"
 
 size_t world_add_vertex(world_t *world, const double position[3])
 {

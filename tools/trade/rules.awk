@@ -155,7 +155,7 @@ function program(core,    part)
 {
     split(core, part, "-")
     rule("build/trade/error-" core, "tools/trade/trade_error.c " \
-        "$(trade_tables) build/" part[1] "/sim/sim_options.o $(io) $(" \
+        "$(trade_tables) $(io) $(" \
         part[1] ")", "trade_core",
         "-DQL_CFG_PRECISION=" (part[1] == "fine") " -DQL_CFG_TABLE_BITS=" \
         part[2] " -DQL_CFG_TABLE_LERP=" part[3])

@@ -28,8 +28,8 @@ typedef struct {
     size_t count;
 } trade_t;
 
-/* Read the table that tools/trade.sh writes, and mark what is best in each
- * scene on each core. cli_fail(CLI_INPUT) names file and line. */
+/* Read the table that tools/trade/trade.sh writes, and mark what is best in
+ * each scene on each core. cli_fail(CLI_INPUT) names file and line. */
 void trade_read(trade_t *trade, const char *path);
 void trade_free(trade_t *trade);
 

@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image.h"
+#include "lib/image/image.h"
 #include "qlux.h"
-#include "sim/sim_options.h"
+#include "lib/render/render_options.h"
 
 static const char help[] =
         "trade-error: the error of a picture as its samples double\n"
@@ -135,8 +135,8 @@ static void read_reference(
     }
 }
 
-/* sim_options_parse() wants to know where the picture goes. */
-static void parse(sim_options_t *options, int argc, char **argv)
+/* render_options_parse() wants to know where the picture goes. */
+static void parse(render_options_t *options, int argc, char **argv)
 {
     char **args = cli_alloc((size_t)argc + 2, sizeof *args);
     char out[] = "-o", nowhere[] = "nowhere.pfm";
@@ -148,13 +148,13 @@ static void parse(sim_options_t *options, int argc, char **argv)
     }
     args[count++] = out;
     args[count++] = nowhere;
-    sim_options_parse(options, count, args);
+    render_options_parse(options, count, args);
     free(args);
 }
 
 int main(int argc, char **argv)
 {
-    sim_options_t options;
+    render_options_t options;
     measure_t m;
     ql_render_t render;
     ql_scene_t scene;

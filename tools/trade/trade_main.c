@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trade.h"
+#include "trade/trade.h"
 
 static const char help[] =
         "qlux-trade: error against instructions of measured choices\n"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "trade.h"
+#include "trade/trade.h"
 
 #define PANEL_WIDTH  560.0
 #define PANEL_HEIGHT 330.0

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "trade.h"
+#include "trade/trade.h"
 
 static const char header[] =
         "scene,core,name,knob,precision,table_bits,table_lerp,node_bits,leaf,"

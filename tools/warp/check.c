@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli.h"
+#include "lib/program/cli.h"
 #include "sample/ql_cdf.h"
-#include "warps.h"
+#include "warp/warps.h"
 
 enum {
     BINS_POLAR = 16, /* of the 512, along the first coordinate */

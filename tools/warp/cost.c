@@ -9,11 +9,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli.h"
+#include "lib/program/cli.h"
 #include "math/ql_lut.h"
 #include "sample/ql_cdf.h"
-#include "scene/build_table.h"
-#include "warps.h"
+#include "lib/math/build_table.h"
+#include "warp/warps.h"
 
 enum {
     ENTRIES_MAX = 4096,

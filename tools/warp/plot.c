@@ -1,7 +1,7 @@
 /* plot.c - pictures: the unit square, a histogram, title and verdict */
 /* SPDX-License-Identifier: MIT */
 
-#include "plot.h"
+#include "warp/plot.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #define PLOT_H
 
 #include "figure/figure.h"
-#include "warps.h"
+#include "warp/warps.h"
 
 #define PI     3.14159265358979323846
 #define DEGREE (PI / 180)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plot.h"
+#include "warp/plot.h"
 
 /* Disk, triangle, tent. */
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plot.h"
+#include "warp/plot.h"
 
 #define ELEVATION (22 * DEGREE) /* of the eye */
 #define DOME      118.0         /* radius of the hemisphere */

@@ -4,10 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli.h"
+#include "lib/program/cli.h"
 #include "sample/ql_cdf.h"
-#include "scene/build_table.h"
-#include "warps.h"
+#include "lib/math/build_table.h"
+#include "warp/warps.h"
 
 #define TWO_31 2147483648.0 /* 2^31 */
 #define TWO_32 4294967296.0 /* 2^32 */

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image.h"
-#include "warps.h"
+#include "lib/image/image.h"
+#include "warp/warps.h"
 
 enum { SAMPLES_DEFAULT = 512, SAMPLES_MAX = 65536, POWER_MAX = 65535 };
 

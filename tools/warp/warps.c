@@ -1,15 +1,15 @@
 /* warps.c - directions and points of the plane, and their closed forms */
 /* SPDX-License-Identifier: MIT */
 
-#include "warps.h"
+#include "warp/warps.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "cli.h"
+#include "lib/program/cli.h"
 #include "sample/ql_sampler.h"
-#include "sample/ql_square.h"
-#include "sample/ql_warp.h"
+#include "warp/ql_square.h"
+#include "warp/ql_warp.h"
 
 #define PI      3.14159265358979323846
 #define DEGREE  (PI / 180)

@@ -15,8 +15,8 @@
 #include <stdint.h>
 
 #include "sample/ql_alias.h"
-#include "sample/ql_lobe.h"
-#include "sample/ql_spherical.h"
+#include "warp/ql_lobe.h"
+#include "warp/ql_spherical.h"
 #include "sample/ql_table.h"
 
 enum {

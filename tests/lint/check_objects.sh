@@ -1,0 +1,85 @@
+#!/bin/sh
+# check_objects.sh - compile the core for every CPU; look into its objects
+# SPDX-License-Identifier: MIT
+#
+# usage: tests/lint/check_objects.sh
+#
+# For each CPU and precision: no warning; no undefined symbol but the core's own,
+# memcpy, memset and integer helpers; no 64-bit division. Prints one claim each;
+# exit 1 if any fails.
+#
+# Example: tests/lint/check_objects.sh
+
+set -u
+out=build/check-objects
+flags='-std=c99 -pedantic -ffreestanding -Wall -Wextra -Wconversion -Wshadow
+    -Wundef -Wmissing-prototypes -Werror -O2 -ffunction-sections -Ifirmware -Ihal'
+failed=0
+
+claim()
+{
+    if [ -z "$2" ]; then
+        echo "objects/$1 ok"
+    else
+        echo "objects/$1 FAIL" $(echo "$2" | head -3)
+        failed=1
+    fi
+}
+
+# name, tool prefix, flags of each CPU the core is built for
+cpus='x86_64|||-m64
+i386|||-m32
+armv6-m|arm-none-eabi-||-mcpu=cortex-m0 -mthumb
+armv7-m|arm-none-eabi-||-mcpu=cortex-m3 -mthumb
+armv7e-m|arm-none-eabi-||-mcpu=cortex-m4 -mthumb
+armv8-m.base|arm-none-eabi-||-mcpu=cortex-m23 -mthumb
+armv8-m.main|arm-none-eabi-||-mcpu=cortex-m33 -mthumb
+rv32imc|riscv64-unknown-elf-||-march=rv32imc -mabi=ilp32
+rv32imac|riscv64-unknown-elf-||-march=rv32imac -mabi=ilp32
+avr|avr-||-mmcu=atmega2560'
+
+check_cpu()
+{
+    name=$1 prefix=$2 options=$3
+    for precision in 0 1; do
+        dir=$out/$name-$precision
+        mkdir -p "$dir"
+        rm -f "$dir"/*.o
+        log=
+        for source in firmware/*/*.c; do
+            object=$dir/$(basename "$source" .c).o
+            log="$log$(${prefix}gcc $flags $options \
+                -DQL_CFG_PRECISION=$precision -c "$source" -o "$object" 2>&1)"
+        done
+        label=$([ $precision = 0 ] && echo draft || echo fine)
+        claim "$name-$label the_whole_core_compiles_without_a_warning" "$log"
+
+        # Floating-point helpers of libgcc, every ABI's spelling, and the heap.
+        bad=$(${prefix}nm -u "$dir"/*.o | awk '{ print $NF }' | sort -u |
+            grep -E '^(__aeabi_[fd]|__aeabi_[ui]l?2[fd]|__aeabi_cd|__aeabi_cf|__.*(sf|df|xf|tf)[0-9]*$|__(fix|float).*|malloc|calloc|realloc|free|_sbrk|printf|abort)')
+        claim "$name-$label no_float_helper_and_no_heap_is_referenced" "$bad"
+
+        bad=$(for object in "$dir"/*.o; do
+            ${prefix}objdump -dr "$object" | awk -v object="$(basename "$object")" '
+                /^[0-9a-f]+ <[^.].*>:$/ { name = $2 }
+                /__aeabi_u?ldivmod|__u?(div|mod)di3|__udivmoddi4/ {
+                    print object ":" name
+                }'
+        done)
+        claim "$name-$label no_64_bit_division_anywhere" "$bad"
+    done
+}
+
+IFS='
+'
+for line in $cpus; do
+    name=${line%%|*}
+    rest=${line#*|}
+    prefix=${rest%%|*}
+    options=${rest##*|}
+    unset IFS
+    check_cpu "$name" "$prefix" "$options"
+    IFS='
+'
+done
+exit $failed

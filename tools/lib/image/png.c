@@ -1,0 +1,273 @@
+/* png.c - PNG pictures of 8 bits, RGB or gray (ISO/IEC 15948) */
+/* SPDX-License-Identifier: MIT */
+
+#include "lib/image/png.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/ql_crc.h"
+#include "lib/image/deflate.h"
+
+static const uint8_t signature[8] = {
+        0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+
+enum { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH };
+
+/* No zlib stream expands by more than about 1032; a header that promises a
+ * larger picture than its data can hold is refused before memory is taken. */
+#define EXPAND_MAX 1040u
+
+static uint32_t take_be32(const uint8_t *b)
+{
+    return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 |
+           b[3];
+}
+
+static void put_be32(uint8_t *b, uint32_t value)
+{
+    for (unsigned i = 0; i < 4; i++) {
+        b[i] = (uint8_t)(value >> (24 - 8 * i));
+    }
+}
+
+/* What a filter predicts from the byte to the left, above, and above left. */
+static int predict(unsigned filter, int left, int up, int corner)
+{
+    const int p = left + up - corner;
+    const int a = abs(p - left), b = abs(p - up), c = abs(p - corner);
+
+    switch (filter) {
+    case FILTER_SUB:
+        return left;
+    case FILTER_UP:
+        return up;
+    case FILTER_AVERAGE:
+        return (left + up) / 2;
+    case FILTER_PAETH:
+        return a <= b && a <= c ? left : b <= c ? up : corner;
+    default:
+        return 0;
+    }
+}
+
+/* row[i] +- prediction, with the neighbours taken from plain pixels. */
+static uint8_t filter_byte(unsigned filter, const uint8_t *row,
+        const uint8_t *above, size_t i, unsigned channels)
+{
+    const int left = i >= channels ? row[i - channels] : 0;
+    const int up = above != NULL ? above[i] : 0;
+    const int corner = above != NULL && i >= channels ? above[i - channels] : 0;
+
+    return (uint8_t)predict(filter, left, up, corner);
+}
+
+/* ---- Read -------------------------------------------------------------- */
+
+/* What the chunks hold. */
+typedef struct {
+    uint32_t width;
+    uint32_t height;
+    unsigned channels;
+    uint8_t *packed; /* the IDAT chunks, joined */
+    size_t packed_size;
+} png_t;
+
+static const char *take_header(png_t *png, const uint8_t *b, size_t size)
+{
+    if (size != 13 || png->width != 0) {
+        return "expected one IHDR chunk of 13 bytes";
+    }
+    png->width = take_be32(b);
+    png->height = take_be32(b + 4);
+    if (png->width == 0 || png->width > IMAGE_SIDE_MAX || png->height == 0 ||
+            png->height > IMAGE_SIDE_MAX ||
+            png->height > IMAGE_PIXELS_MAX / png->width) {
+        return "expected sides from 1 to 65535 and at most 2^28 pixels";
+    }
+    if (b[8] != 8 || (b[9] != 0 && b[9] != 2)) {
+        return "expected 8 bits a channel, RGB or gray, no alpha or palette";
+    }
+    if (b[10] != 0 || b[11] != 0 || b[12] != 0) {
+        return "expected no interlacing";
+    }
+    png->channels = b[9] == 2 ? 3 : 1;
+    return NULL;
+}
+
+/* Walk the chunks from *at on; packed has room for all of them. */
+static const char *take_chunks(
+        png_t *png, const uint8_t *data, size_t size, size_t *at)
+{
+    for (;;) {
+        const uint8_t *chunk = data + *at;
+        const char *error = NULL;
+        uint32_t n;
+        if (size - *at < 12) {
+            return "the file ends before its IEND chunk";
+        }
+        n = take_be32(chunk);
+        if (n > size - *at - 12) {
+            return "a chunk longer than the file";
+        }
+        if (take_be32(chunk + 8 + n) != ql_crc32(0, chunk + 4, n + 4u)) {
+            return "the chunk's CRC-32 does not match";
+        }
+        if (memcmp(chunk + 4, "IHDR", 4) == 0) {
+            error = take_header(png, chunk + 8, n);
+        } else if (png->width == 0) {
+            error = "expected an IHDR chunk first";
+        } else if (memcmp(chunk + 4, "IDAT", 4) == 0) {
+            memcpy(png->packed + png->packed_size, chunk + 8, n);
+            png->packed_size += n;
+        } else if (memcmp(chunk + 4, "IEND", 4) == 0) {
+            return NULL;
+        } else if ((chunk[4] & 0x20) == 0) {
+            error = "a critical chunk of no known kind";
+        }
+        if (error != NULL) {
+            return error;
+        }
+        *at += n + 12u;
+    }
+}
+
+/* Undo the filters in place, then spread gray over RGB. */
+static const char *unfilter(const png_t *png, uint8_t *lines, uint8_t *pixels)
+{
+    const size_t n = (size_t)png->width * png->channels;
+    const unsigned repeat = 3 / png->channels;
+
+    for (size_t y = 0; y < png->height; y++) {
+        uint8_t *row = lines + (n + 1) * y + 1;
+        const uint8_t *above = y > 0 ? row - (n + 1) : NULL;
+        if (row[-1] > FILTER_PAETH) {
+            return "a row filter of no known kind";
+        }
+        for (size_t i = 0; i < n; i++) {
+            row[i] = (uint8_t)(row[i] + filter_byte(row[-1], row, above, i,
+                                                png->channels));
+        }
+        for (size_t i = 0; i < n * repeat; i++) {
+            *pixels++ = row[i / repeat];
+        }
+    }
+    return NULL;
+}
+
+static const char *expand(const png_t *png, image_t *image)
+{
+    const size_t size = png->height * ((size_t)png->width * png->channels + 1);
+    const char *error;
+    uint8_t *lines;
+    size_t where;
+
+    if (size / EXPAND_MAX > png->packed_size) {
+        return "the compressed data are too short for the picture";
+    }
+    lines = cli_alloc(size, 1);
+    error = deflate_unpack(png->packed, png->packed_size, lines, size, &where);
+    if (error == NULL) {
+        image_new(image, png->width, png->height, false);
+        error = unfilter(png, lines, image->bytes);
+    }
+    free(lines);
+    return error;
+}
+
+const char *png_decode(
+        image_t *image, const uint8_t *data, size_t size, size_t *where)
+{
+    png_t png = {0, 0, 0, NULL, 0};
+    const char *error;
+
+    *where = 0;
+    if (size < sizeof signature ||
+            memcmp(data, signature, sizeof signature) != 0) {
+        return "expected the PNG signature";
+    }
+    *where = sizeof signature;
+    png.packed = cli_alloc(size, 1);
+    error = take_chunks(&png, data, size, where);
+    if (error == NULL) {
+        error = expand(&png, image);
+    }
+    free(png.packed);
+    return error;
+}
+
+/* ---- Write ------------------------------------------------------------- */
+
+static void put_chunk(
+        FILE *file, const char *kind, const uint8_t *data, size_t size)
+{
+    uint8_t word[8];
+
+    put_be32(word, (uint32_t)size); /* a picture has < 2^31 bytes */
+    memcpy(word + 4, kind, 4);
+    fwrite(word, 1, 8, file);
+    fwrite(data, 1, size, file);
+    put_be32(word, ql_crc32(ql_crc32(0, kind, 4), data, size));
+    fwrite(word, 1, 4, file);
+}
+
+/* Filter a row and tell how far its bytes are from zero: the sum of absolute
+ * differences that the PNG specification recommends to choose by. */
+static uint64_t filter_row(unsigned filter, const uint8_t *row,
+        const uint8_t *above, size_t n, uint8_t *out)
+{
+    uint64_t sum = 0;
+
+    out[0] = (uint8_t)filter;
+    for (size_t i = 0; i < n; i++) {
+        const uint8_t d =
+                (uint8_t)(row[i] - filter_byte(filter, row, above, i, 3));
+        out[i + 1] = d;
+        sum += d < 128 ? d : 256u - d;
+    }
+    return sum;
+}
+
+/* Rows, each behind its best filter. */
+static uint8_t *filter_image(const image_t *image, size_t *size)
+{
+    const size_t n = 3 * (size_t)image->width;
+    uint8_t *lines = cli_alloc(image->height, n + 1);
+
+    for (size_t y = 0; y < image->height; y++) {
+        const uint8_t *row = image->bytes + n * y;
+        const uint8_t *above = y > 0 ? row - n : NULL;
+        uint8_t *out = lines + (n + 1) * y;
+        unsigned best = FILTER_NONE;
+        uint64_t least = UINT64_MAX;
+        for (unsigned f = FILTER_NONE; f <= FILTER_PAETH; f++) {
+            const uint64_t sum = filter_row(f, row, above, n, out);
+            if (sum < least) {
+                least = sum;
+                best = f;
+            }
+        }
+        filter_row(best, row, above, n, out);
+    }
+    *size = image->height * (n + 1);
+    return lines;
+}
+
+void png_write(const image_t *image, FILE *file)
+{
+    uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, 2, 0, 0, 0};
+    uint8_t *lines, *packed;
+    size_t size, packed_size;
+
+    put_be32(header, image->width);
+    put_be32(header + 4, image->height);
+    lines = filter_image(image, &size);
+    packed = deflate_pack(lines, size, &packed_size);
+    fwrite(signature, 1, sizeof signature, file);
+    put_chunk(file, "IHDR", header, sizeof header);
+    put_chunk(file, "sRGB", (const uint8_t *)"\0", 1);
+    put_chunk(file, "IDAT", packed, packed_size);
+    put_chunk(file, "IEND", header, 0);
+    free(lines);
+    free(packed);
+}

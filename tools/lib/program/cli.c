@@ -1,0 +1,395 @@
+/* cli.c - what every program shares: messages, exit codes, safe output */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef _XOPEN_SOURCE
+#define _XOPEN_SOURCE 700 /* realpath() */
+#endif
+
+#include "lib/program/cli.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#define OUT_MAX   16                /* files written at the same time */
+#define READ_MAX  ((size_t)1 << 30) /* no input of ours is larger */
+#define READ_STEP ((size_t)1 << 16)
+
+static const char *program_name = "qlux";
+static volatile sig_atomic_t interrupted;
+static bool progress_open; /* the cursor stands behind a progress bar */
+
+/* Temporary files that exist now. A signal handler reads this, so a slot is
+ * filled by one pointer store after its file exists and emptied likewise. */
+static char *volatile temporaries[OUT_MAX];
+
+/* Async-signal-safe. */
+static void remove_temporaries(void)
+{
+    for (int i = 0; i < OUT_MAX; i++) {
+        if (temporaries[i] != NULL) {
+            unlink(temporaries[i]);
+        }
+    }
+}
+
+/* The first signal asks; programs look at cli_interrupted(). A second one, or
+ * the first in a program that waits for something else, does not wait. */
+static void on_signal(int number)
+{
+    (void)number;
+    if (interrupted) {
+        remove_temporaries();
+        _exit(CLI_IO);
+    }
+    interrupted = 1;
+}
+
+/* A full disk behind stdout is known only when it is flushed. */
+static void close_stdout(void)
+{
+    const bool failed = ferror(stdout) != 0;
+
+    if (fflush(stdout) != 0 || failed) {
+        if (errno != EPIPE) { /* the reader of a pipe may well have enough */
+            fprintf(stderr, "%s: cannot write to stdout: %s\n", program_name,
+                    strerror(errno));
+        }
+        _exit(CLI_IO);
+    }
+}
+
+void cli_begin(const char *program)
+{
+    struct sigaction stop, ignore, hangup;
+
+    program_name = program;
+    memset(&stop, 0, sizeof stop);
+    stop.sa_handler = on_signal; /* no SA_RESTART: waiting reads give up */
+    sigemptyset(&stop.sa_mask);
+    ignore = stop;
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGINT, &stop, NULL);
+    sigaction(SIGTERM, &stop, NULL);
+    sigaction(SIGHUP, NULL, &hangup);
+    if (hangup.sa_handler != SIG_IGN) { /* nohup must keep working */
+        sigaction(SIGHUP, &stop, NULL);
+    }
+    /* Writes that cannot succeed shall return an error, not kill. */
+    sigaction(SIGPIPE, &ignore, NULL);
+#ifdef SIGXFSZ
+    sigaction(SIGXFSZ, &ignore, NULL);
+#endif
+    atexit(close_stdout);
+}
+
+bool cli_interrupted(void)
+{
+    return interrupted != 0;
+}
+
+void cli_fail(int code, const char *format, ...)
+{
+    va_list arguments;
+
+    if (progress_open) {
+        fputc('\n', stderr);
+    }
+    fprintf(stderr, "%s: ", program_name);
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+    remove_temporaries();
+    exit(code);
+}
+
+void cli_warn(const char *format, ...)
+{
+    va_list arguments;
+
+    fprintf(stderr, "%s%s: warning: ", progress_open ? "\n" : "", program_name);
+    progress_open = false;
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+}
+
+void *cli_alloc(size_t count, size_t size)
+{
+    /* calloc checks the product; asking for 0 shall not look like failure. */
+    void *memory = calloc(count != 0 ? count : 1, size != 0 ? size : 1);
+
+    if (memory == NULL) {
+        cli_fail(CLI_IO, "out of memory for %zu x %zu bytes", count, size);
+    }
+    return memory;
+}
+
+/* Parse a decimal number at *text, which then points behind it. */
+static bool take_number(const char **text, int64_t *value)
+{
+    const char *digits = *text + (**text == '-' || **text == '+');
+    char *end;
+
+    if (*digits < '0' || *digits > '9') { /* strtoll would skip spaces */
+        return false;
+    }
+    errno = 0;
+    *value = strtoll(*text, &end, 10);
+    *text = end;
+    return errno == 0;
+}
+
+int64_t cli_number(
+        const char *option, const char *text, int64_t min, int64_t max)
+{
+    const char *end = text;
+    int64_t value;
+
+    if (text == NULL) {
+        cli_fail(CLI_USAGE, "'%s' needs a value", option);
+    }
+    if (!take_number(&end, &value) || *end != '\0' || value < min ||
+            value > max) {
+        cli_fail(CLI_USAGE,
+                "'%s %s': expected a whole number from %" PRId64 " to %" PRId64,
+                option, text, min, max);
+    }
+    return value;
+}
+
+void cli_pair(const char *option, const char *text, char sep, int64_t min,
+        int64_t max, int64_t *a, int64_t *b)
+{
+    const char *end = text;
+
+    if (text == NULL) {
+        cli_fail(CLI_USAGE, "'%s' needs a value", option);
+    }
+    if (!take_number(&end, a) || *end++ != sep || !take_number(&end, b) ||
+            *end != '\0' || *a < min || *a > max || *b < min || *b > max) {
+        cli_fail(CLI_USAGE,
+                "'%s %s': expected A%cB, whole numbers from %" PRId64
+                " to %" PRId64,
+                option, text, sep, min, max);
+    }
+}
+
+const char *cli_text(const char *option, const char *text)
+{
+    if (text == NULL || text[0] == '\0' ||
+            (text[0] == '-' && text[1] != '\0')) {
+        cli_fail(CLI_USAGE, "'%s' needs a value", option);
+    }
+    return text;
+}
+
+int cli_choice(const char *option, const char *text, const char *const *names)
+{
+    char list[512] = "";
+
+    if (text == NULL) {
+        cli_fail(CLI_USAGE, "'%s' needs a value", option);
+    }
+    for (int i = 0; names[i] != NULL; i++) {
+        if (strcmp(text, names[i]) == 0) {
+            return i;
+        }
+    }
+    for (int i = 0; names[i] != NULL; i++) {
+        const size_t used = strlen(list);
+        snprintf(list + used, sizeof list - used, "%s%s",
+                i == 0                 ? ""
+                : names[i + 1] != NULL ? ", "
+                                       : " or ",
+                names[i]);
+    }
+    cli_fail(CLI_USAGE, "'%s %s': expected %s", option, text, list);
+}
+
+/* The rest of file, grown as it comes, so pipes work too. */
+static void *read_all(FILE *file, const char *path, size_t *size)
+{
+    size_t room = READ_STEP, used = 0;
+    char *data = cli_alloc(room + 1, 1);
+
+    for (;;) {
+        used += fread(data + used, 1, room - used, file);
+        if (used < room) {
+            break;
+        }
+        room *= 2;
+        data = room <= READ_MAX ? realloc(data, room + 1) : NULL;
+        if (data == NULL) {
+            cli_fail(CLI_IO, "%s: too large to read (above %zu bytes)", path,
+                    room / 2);
+        }
+    }
+    if (ferror(file)) {
+        free(data);
+        cli_fail(CLI_IO, "cannot read %s: %s", path,
+                interrupted ? "interrupted" : strerror(errno));
+    }
+    data[used] = '\0';
+    *size = used;
+    return data;
+}
+
+void *cli_read(const char *path, size_t *size)
+{
+    const bool is_stdin = strcmp(path, "-") == 0;
+    FILE *file = is_stdin ? stdin : fopen(path, "rb");
+    void *data;
+
+    if (file == NULL) {
+        cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
+    }
+    data = read_all(file, path, size);
+    if (!is_stdin) {
+        fclose(file);
+    }
+    return data;
+}
+
+/* Create a file of a new name in the folder of path. */
+static FILE *create_beside(const char *path, char **name)
+{
+    const char *slash = strrchr(path, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    const size_t room = folder + 64;
+    int fd = -1;
+
+    *name = cli_alloc(room, 1);
+    memcpy(*name, path, folder);
+    for (unsigned i = 0; fd < 0 && i < 1000; i++) {
+        snprintf(*name + folder, room - folder, "qlux-%ld-%u.tmp",
+                (long)getpid(), i);
+        fd = open(*name, O_WRONLY | O_CREAT | O_EXCL, 0666);
+        if (fd < 0 && errno != EEXIST) {
+            return NULL;
+        }
+    }
+    return fd >= 0 ? fdopen(fd, "wb") : NULL; /* fails for want of memory */
+}
+
+void cli_out_open(cli_out_t *out, const char *path)
+{
+    struct stat info;
+    const bool exists = stat(path, &info) == 0;
+    int slot = 0;
+
+    memset(out, 0, sizeof *out);
+    out->path = path;
+    if (exists && !S_ISREG(info.st_mode)) {
+        /* /dev/null, a pipe: written directly; renaming would replace it. */
+        out->file = S_ISDIR(info.st_mode) ? NULL : fopen(path, "wb");
+        errno = S_ISDIR(info.st_mode) ? EISDIR : errno;
+    } else if (exists && access(path, W_OK) != 0) {
+        out->file = NULL;
+    } else {
+        /* A symbolic link shall keep pointing at what is written. */
+        out->target = exists ? realpath(path, NULL) : NULL;
+        while (slot < OUT_MAX - 1 && temporaries[slot] != NULL) {
+            slot++;
+        }
+        out->file = create_beside(
+                out->target != NULL ? out->target : path, &out->temporary);
+    }
+    if (out->file == NULL) {
+        cli_fail(CLI_IO, "cannot write %s: %s", path, strerror(errno));
+    }
+    if (out->temporary != NULL) {
+        temporaries[slot] = out->temporary;
+        if (exists) {
+            (void)fchmod(fileno(out->file), info.st_mode & 0777);
+        }
+    }
+}
+
+void cli_out_commit(cli_out_t *out)
+{
+    const char *target = out->target != NULL ? out->target : out->path;
+    bool ok = ferror(out->file) == 0;
+    int reason = ok ? 0 : errno;
+
+    if (fclose(out->file) != 0 && ok) {
+        ok = false;
+        reason = errno;
+    }
+    if (interrupted) {
+        cli_fail(CLI_IO, "interrupted; %s was not written", out->path);
+    }
+    if (ok && out->temporary != NULL && rename(out->temporary, target) != 0) {
+        ok = false;
+        reason = errno;
+    }
+    if (!ok) {
+        cli_fail(CLI_IO, "cannot write %s: %s", out->path, strerror(reason));
+    }
+    for (int i = 0; i < OUT_MAX; i++) {
+        if (temporaries[i] == out->temporary) {
+            temporaries[i] = NULL;
+        }
+    }
+    free(out->temporary);
+    free(out->target);
+    memset(out, 0, sizeof *out);
+}
+
+double cli_seconds(void)
+{
+    struct timespec now;
+
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet)
+{
+    enum { WIDTH = 32 };
+    static double begun, drawn;
+    const double now = cli_seconds();
+    const double part = total != 0 ? (double)done / (double)total : 1;
+    const bool last = done >= total;
+    char bar[WIDTH + 1], left[32] = "";
+
+    if (quiet || !isatty(STDERR_FILENO)) {
+        return;
+    }
+    if (!progress_open) {
+        begun = now;
+        drawn = now - 1;
+        progress_open = true;
+    }
+    if (now - drawn < 0.1 && !last) {
+        return;
+    }
+    drawn = now;
+    for (int i = 0; i < WIDTH; i++) {
+        bar[i] = i < part * WIDTH ? '#' : '.';
+    }
+    bar[WIDTH] = '\0';
+    if (last || now - begun > 0.5) { /* too early to tell before that */
+        const double s = last ? now - begun : (now - begun) * (1 / part - 1);
+        if (s < 360000) {
+            snprintf(left, sizeof left, "%d:%02d %s", (int)s / 60, (int)s % 60,
+                    last ? "   " : "left");
+        }
+    }
+    fprintf(stderr, "\r%s [%s] %3d %% %-12s", label, bar, (int)(part * 100),
+            left);
+    if (last) {
+        fputc('\n', stderr);
+        progress_open = false;
+    }
+    fflush(stderr);
+}

@@ -1,0 +1,144 @@
+/* develop.c - sums of samples to a picture: linear, or as a display shows it */
+/* SPDX-License-Identifier: MIT */
+
+#include "lib/render/develop.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const char *const develop_formats[QL_FORMAT_COUNT + 1] = {
+        "rgb888", "rgb565le", "rgb565be", "gray8", "gray4", NULL};
+
+/* sum / count * 2^exponent as the nearest float, ties to even. In integers, so
+ * that every machine agrees, those with 80-bit registers too. */
+static float mean_float(uint64_t sum, uint32_t count, int exponent)
+{
+    const unsigned shift = ql_clz64(sum);
+    uint64_t quotient;
+    unsigned drop = 0;
+    bool above;
+
+    if (sum == 0 || count == 0) {
+        return 0;
+    }
+    sum <<= shift;
+    quotient = sum / count; /* >= 2^63 / 2^24: 24 bits and more to round by */
+    above = sum % count != 0;
+    for (; quotient >> drop >= 1u << 25; drop++) { /* keep 25 bits */
+        above = above || (quotient >> drop & 1u) != 0;
+    }
+    quotient >>= drop;
+    if ((quotient & 1u) != 0 && (above || (quotient & 2u) != 0)) {
+        quotient++;
+    }
+    /* Exact: at most 2^24 times a power of two from 2^-200 up; the smallest
+     * result is 2^-64-24-24, a normal float. */
+    return (float)ldexp(
+            (double)(quotient >> 1), exponent - (int)shift + (int)drop + 1);
+}
+
+/* Samples of a pixel in a row of so many. */
+static uint32_t count_of(const sums_t *sums, size_t pixel, uint32_t row)
+{
+    return sums->counts != NULL ? sums->counts[pixel] : row;
+}
+
+static void develop_linear(image_t *image, const sums_t *sums)
+{
+    const size_t width = image->width;
+    const int exponent = (int)sums_field_value(sums, SUMS_RADIANCE_EXP);
+
+    for (uint32_t y = 0; y < image->height; y++) {
+        const uint32_t row = sums_row_count(sums, y);
+        for (size_t i = 3 * width * y; i < 3 * width * (y + 1); i++) {
+            image->floats[i] = mean_float(sums->pixels[i / 3].rgb[i % 3],
+                    count_of(sums, i / 3, row), exponent - QL_SUM_BITS);
+        }
+    }
+}
+
+static void widen_565(uint8_t rgb[3], unsigned high, unsigned low)
+{
+    const unsigned r = high >> 3, g = (high & 7u) << 3 | low >> 5;
+    const unsigned b = low & 31u;
+
+    rgb[0] = (uint8_t)(r << 3 | r >> 2);
+    rgb[1] = (uint8_t)(g << 2 | g >> 4);
+    rgb[2] = (uint8_t)(b << 3 | b >> 2);
+}
+
+/* Pixel x of a display line as 8-bit RGB. */
+static void widen(
+        uint8_t rgb[3], const uint8_t *line, ql_format_t format, size_t x)
+{
+    switch (format) {
+    case QL_FORMAT_RGB888:
+        rgb[0] = line[3 * x];
+        rgb[1] = line[3 * x + 1];
+        rgb[2] = line[3 * x + 2];
+        break;
+    case QL_FORMAT_RGB565_LE:
+        widen_565(rgb, line[2 * x + 1], line[2 * x]);
+        break;
+    case QL_FORMAT_RGB565_BE:
+        widen_565(rgb, line[2 * x], line[2 * x + 1]);
+        break;
+    case QL_FORMAT_GRAY8:
+        rgb[0] = rgb[1] = rgb[2] = line[x];
+        break;
+    case QL_FORMAT_GRAY4:
+        rgb[0] = x % 2 == 0 ? line[x / 2] >> 4 : line[x / 2] & 15u;
+        rgb[0] = rgb[1] = rgb[2] = (uint8_t)(17 * rgb[0]);
+        break;
+    }
+}
+
+static void develop_display(
+        image_t *image, const sums_t *sums, ql_format_t format)
+{
+    const size_t width = image->width;
+    const ql_real_t exposure =
+            ql_film_exposure((int16_t)sums_field_value(sums, SUMS_RADIANCE_EXP),
+                    (int16_t)sums_field_value(sums, SUMS_EXPOSURE_Q8));
+    uint8_t *line = cli_alloc(QL_LINE_BYTES(width, format), 1);
+
+    for (uint32_t y = 0; y < image->height; y++) {
+        const uint32_t row = sums_row_count(sums, y);
+        if (row == 0) {
+            continue; /* not even dithered */
+        }
+        for (size_t x = 0; x < width; x++) {
+            const size_t i = width * y + x;
+            ql_uq16_t linear[3];
+            ql_film_display(
+                    sums->pixels + i, count_of(sums, i, row), exposure, linear);
+            ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
+        }
+        for (size_t x = 0; x < width; x++) {
+            widen(image->bytes + 3 * (width * y + x), line, format, x);
+        }
+    }
+    free(line);
+}
+
+void develop(image_t *image, const sums_t *sums, image_kind_t kind,
+        ql_format_t format)
+{
+    image_new(image, sums->field[SUMS_WIDTH], sums->field[SUMS_HEIGHT],
+            kind == IMAGE_PFM);
+    if (kind == IMAGE_PFM) {
+        develop_linear(image, sums);
+    } else {
+        develop_display(image, sums, format);
+    }
+}
+
+void develop_write(const sums_t *sums, image_kind_t kind, ql_format_t format,
+        cli_out_t *out)
+{
+    image_t image;
+
+    develop(&image, sums, kind, format);
+    image_write(&image, kind, out);
+    image_free(&image);
+}

@@ -1,0 +1,404 @@
+/* sums.c - sum files: exact sums of samples, to be added up across machines */
+/* SPDX-License-Identifier: MIT */
+
+#include "lib/render/sums.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/ql_crc.h"
+#include "base/ql_settings.h"
+
+enum {
+    HEAD_BYTES = 8 + 4 * SUMS_FIELD_COUNT,
+    RANGE_BYTES = 16,
+    PIXEL_BYTES = 24,
+    CRC_BYTES = 4
+};
+
+static const struct {
+    const char *name;
+    int64_t min;
+    int64_t max;
+} fields[SUMS_FIELD_COUNT] = {
+#define SUMS_FIELD_ROW(name, text, min, max) {text, min, max},
+        SUMS_FIELD_LIST(SUMS_FIELD_ROW)
+#undef SUMS_FIELD_ROW
+};
+
+const char *sums_field_name(unsigned field)
+{
+    return fields[field].name;
+}
+
+int64_t sums_field_value(const sums_t *sums, unsigned field)
+{
+    const uint32_t bits = sums->field[field];
+
+    return fields[field].min < 0 ? ql_i32(bits) : (int64_t)bits;
+}
+
+unsigned sums_compare(const sums_t *a, const sums_t *b)
+{
+    unsigned i = 0;
+
+    while (i < SUMS_FIELD_COUNT && a->field[i] == b->field[i]) {
+        i++;
+    }
+    return i;
+}
+
+void sums_new(sums_t *sums)
+{
+    sums->range_count = 0;
+    sums->ranges = NULL;
+    sums->counts = NULL;
+    sums->pixels = cli_alloc(sums->field[SUMS_HEIGHT],
+            sums->field[SUMS_WIDTH] * sizeof(ql_sum_t));
+}
+
+void sums_own_counts(sums_t *sums)
+{
+    sums->counts = cli_alloc(sums->field[SUMS_HEIGHT],
+            sums->field[SUMS_WIDTH] * sizeof *sums->counts);
+}
+
+void sums_free(sums_t *sums)
+{
+    free(sums->ranges);
+    free(sums->pixels);
+    free(sums->counts);
+    memset(sums, 0, sizeof *sums);
+}
+
+/* ---- Ranges ------------------------------------------------------------ */
+
+static void append_range(sums_t *sums, const sums_range_t *range)
+{
+    const uint32_t n = sums->range_count;
+
+    if ((n & (n - 1)) == 0) { /* full at every power of two, and at 0 */
+        sums->ranges = realloc(
+                sums->ranges, (n == 0 ? 1 : 2 * (size_t)n) * sizeof *range);
+        if (sums->ranges == NULL) {
+            cli_fail(CLI_IO, "out of memory for %u ranges", (unsigned)n);
+        }
+    }
+    sums->ranges[sums->range_count++] = *range;
+}
+
+bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash)
+{
+    for (uint32_t i = 0; i < sums->range_count; i++) {
+        const sums_range_t *r = sums->ranges + i;
+        if (range->row_first < r->row_end && r->row_first < range->row_end &&
+                range->sample_first < r->sample_end &&
+                r->sample_first < range->sample_end) {
+            *clash = *r;
+            return false;
+        }
+    }
+    if (sums->range_count >= SUMS_RANGE_MAX) {
+        *clash = *range;
+        return false;
+    }
+    append_range(sums, range);
+    return true;
+}
+
+uint32_t sums_row_count(const sums_t *sums, uint32_t y)
+{
+    uint32_t count = 0; /* ranges do not overlap: at most 2^24 */
+
+    for (uint32_t i = 0; i < sums->range_count; i++) {
+        const sums_range_t *r = sums->ranges + i;
+        if (r->row_first <= y && y < r->row_end) {
+            count += r->sample_end - r->sample_first;
+        }
+    }
+    return count;
+}
+
+static int compare_samples(const void *a, const void *b)
+{
+    const sums_range_t *p = a, *q = b;
+
+    return (p->sample_first > q->sample_first) -
+           (p->sample_first < q->sample_first);
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    const uint32_t *p = a, *q = b;
+
+    return (*p > *q) - (*p < *q);
+}
+
+/* Append to joined the sample ranges of rows [first, end), which every range
+ * holds entirely or not at all. sums->ranges are sorted by samples. Returns
+ * how many ranges this made. */
+static uint32_t join_samples(
+        const sums_t *sums, sums_t *joined, uint32_t first, uint32_t end)
+{
+    uint32_t made = 0;
+
+    for (uint32_t i = 0; i < sums->range_count; i++) {
+        sums_range_t r = sums->ranges[i];
+        if (r.row_first > first || r.row_end <= first) {
+            continue;
+        }
+        r.row_first = first;
+        r.row_end = end;
+        if (made > 0 && joined->ranges[joined->range_count - 1].sample_end ==
+                                r.sample_first) {
+            joined->ranges[joined->range_count - 1].sample_end = r.sample_end;
+        } else {
+            append_range(joined, &r);
+            made++;
+        }
+    }
+    return made;
+}
+
+/* If the last made ranges repeat the n before them, only further down, grow
+ * those instead. Returns how many ranges now describe the lowest rows. */
+static uint32_t join_rows(sums_t *joined, uint32_t n, uint32_t made)
+{
+    sums_range_t *now = joined->ranges + joined->range_count - made;
+    sums_range_t *old = now - n;
+
+    if (n != made || made == 0 || old->row_end != now->row_first) {
+        return made;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        if (old[i].sample_first != now[i].sample_first ||
+                old[i].sample_end != now[i].sample_end) {
+            return made;
+        }
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        old[i].row_end = now[i].row_end;
+    }
+    joined->range_count -= made;
+    return n;
+}
+
+/* Describe the same samples in the one canonical way: cut the rows wherever a
+ * range begins or ends, join samples within each slice, then join slices. */
+static void join_ranges(sums_t *sums)
+{
+    const uint32_t n = 2 * sums->range_count;
+    uint32_t *cuts = cli_alloc(n, sizeof *cuts);
+    sums_t joined = *sums;
+    uint32_t made = 0;
+
+    joined.ranges = NULL;
+    joined.range_count = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        cuts[i] = i % 2 == 0 ? sums->ranges[i / 2].row_first
+                             : sums->ranges[i / 2].row_end;
+    }
+    qsort(cuts, n, sizeof *cuts, compare_numbers);
+    if (n > 0) {
+        qsort(sums->ranges, sums->range_count, sizeof *sums->ranges,
+                compare_samples);
+    }
+    for (uint32_t i = 0; i + 1 < n; i++) {
+        if (cuts[i] < cuts[i + 1]) {
+            made = join_rows(&joined, made,
+                    join_samples(sums, &joined, cuts[i], cuts[i + 1]));
+        }
+    }
+    free(cuts);
+    free(sums->ranges);
+    *sums = joined;
+}
+
+/* ---- Read -------------------------------------------------------------- */
+
+static uint32_t take_le32(const uint8_t *b)
+{
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
+           (uint32_t)b[3] << 24;
+}
+
+static const char *take_fields(sums_t *sums, const uint8_t *data, size_t *at)
+{
+    static char message[80];
+
+    for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++, *at += 4) {
+        int64_t value;
+        sums->field[i] = take_le32(data + *at);
+        value = sums_field_value(sums, i);
+        if (value < fields[i].min || value > fields[i].max) {
+            snprintf(message, sizeof message, "expected a %s from %ld to %lu",
+                    fields[i].name, (long)fields[i].min,
+                    (unsigned long)fields[i].max);
+            return message;
+        }
+    }
+    return NULL;
+}
+
+static const char *take_ranges(
+        sums_t *sums, const uint8_t *data, uint32_t count, size_t *at)
+{
+    for (uint32_t i = 0; i < count; i++, *at += RANGE_BYTES) {
+        const uint8_t *b = data + *at;
+        const sums_range_t r = {take_le32(b), take_le32(b + 4),
+                take_le32(b + 8), take_le32(b + 12)};
+        sums_range_t clash;
+        if (r.row_first >= r.row_end || r.row_end > sums->field[SUMS_HEIGHT]) {
+            return "expected a range of rows of the picture";
+        }
+        if (r.sample_first >= r.sample_end || r.sample_end > QL_SPP_MAX) {
+            return "expected a range of samples from 0 to 2^24";
+        }
+        if (!sums_claim(sums, &r, &clash)) {
+            return "a range that overlaps another";
+        }
+    }
+    return NULL;
+}
+
+static void take_row(ql_sum_t *row, uint32_t width, const uint8_t *data)
+{
+    for (size_t i = 0; i < 3 * (size_t)width; i++, data += 8) {
+        row[i / 3].rgb[i % 3] = take_le32(data) | (uint64_t)take_le32(data + 4)
+                                                          << 32;
+    }
+}
+
+/* The rows that some range holds. Their number is checked first, so that a
+ * small file cannot ask for much memory. */
+static const char *take_rows(
+        sums_t *sums, const uint8_t *data, size_t left, size_t *at)
+{
+    const uint32_t width = sums->field[SUMS_WIDTH];
+    const uint32_t height = sums->field[SUMS_HEIGHT];
+    const size_t row_bytes = (size_t)PIXEL_BYTES * width;
+    uint64_t rows = 0;
+
+    for (uint32_t y = 0; y < height; y++) {
+        rows += sums_row_count(sums, y) != 0;
+    }
+    if (left != rows * row_bytes) {
+        return left < rows * row_bytes ? "the sums end too early"
+                                       : "unexpected bytes after the sums";
+    }
+    sums->pixels = cli_alloc(height, (size_t)width * sizeof(ql_sum_t));
+    for (uint32_t y = 0; y < height; y++) {
+        if (sums_row_count(sums, y) != 0) {
+            take_row(sums->pixels + (size_t)width * y, width, data + *at);
+            *at += row_bytes;
+        }
+    }
+    return NULL;
+}
+
+const char *sums_decode(
+        sums_t *sums, const uint8_t *data, size_t size, size_t *where)
+{
+    const char *error;
+    uint32_t count;
+
+    memset(sums, 0, sizeof *sums);
+    *where = 0;
+    if (size < 4 || memcmp(data, "QLS3", 4) != 0) {
+        return "expected a sum file (QLS3)";
+    }
+    *where = size;
+    if (size < HEAD_BYTES + CRC_BYTES) {
+        return "the file ends within its header";
+    }
+    size -= CRC_BYTES;
+    if (take_le32(data + size) != ql_crc32(0, data, size)) {
+        *where = size;
+        return "the CRC-32 does not match: the file was cut or changed";
+    }
+    *where = 4;
+    error = take_fields(sums, data, where);
+    if (error != NULL) {
+        return error;
+    }
+    count = take_le32(data + *where);
+    if (count > SUMS_RANGE_MAX || count > (size - HEAD_BYTES) / RANGE_BYTES) {
+        return "expected a number of ranges that the file can hold";
+    }
+    *where = HEAD_BYTES;
+    error = take_ranges(sums, data, count, where);
+    if (error == NULL) {
+        error = take_rows(sums, data, size - *where, where);
+    }
+    if (error != NULL) {
+        sums_free(sums);
+    }
+    return error;
+}
+
+void sums_read(sums_t *sums, const char *path)
+{
+    size_t size, where;
+    uint8_t *data = cli_read(path, &size);
+    const char *error = sums_decode(sums, data, size, &where);
+
+    if (error != NULL) {
+        cli_fail(CLI_INPUT, "%s: byte %zu: %s", path, where, error);
+    }
+    free(data);
+}
+
+/* ---- Write ------------------------------------------------------------- */
+
+typedef struct {
+    FILE *file;
+    uint32_t crc;
+} checked_t;
+
+static void put_bytes(checked_t *to, const uint8_t *bytes, size_t size)
+{
+    to->crc = ql_crc32(to->crc, bytes, size);
+    fwrite(bytes, 1, size, to->file);
+}
+
+static void put_le32(checked_t *to, uint32_t value)
+{
+    const uint8_t bytes[4] = {(uint8_t)value, (uint8_t)(value >> 8),
+            (uint8_t)(value >> 16), (uint8_t)(value >> 24)};
+
+    put_bytes(to, bytes, sizeof bytes);
+}
+
+static void put_row(checked_t *to, const ql_sum_t *row, uint32_t width)
+{
+    for (size_t i = 0; i < 3 * (size_t)width; i++) {
+        const uint64_t sum = row[i / 3].rgb[i % 3];
+        put_le32(to, (uint32_t)sum);
+        put_le32(to, (uint32_t)(sum >> 32));
+    }
+}
+
+void sums_write(sums_t *sums, cli_out_t *out)
+{
+    const uint32_t width = sums->field[SUMS_WIDTH];
+    checked_t to = {out->file, 0};
+
+    join_ranges(sums);
+    put_bytes(&to, (const uint8_t *)"QLS3", 4);
+    for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
+        put_le32(&to, sums->field[i]);
+    }
+    put_le32(&to, sums->range_count);
+    for (uint32_t i = 0; i < sums->range_count; i++) {
+        put_le32(&to, sums->ranges[i].row_first);
+        put_le32(&to, sums->ranges[i].row_end);
+        put_le32(&to, sums->ranges[i].sample_first);
+        put_le32(&to, sums->ranges[i].sample_end);
+    }
+    for (uint32_t y = 0; y < sums->field[SUMS_HEIGHT]; y++) {
+        if (sums_row_count(sums, y) != 0) {
+            put_row(&to, sums->pixels + (size_t)width * y, width);
+        }
+    }
+    put_le32(&to, to.crc);
+}

@@ -1,0 +1,103 @@
+/* sums.h - sum files: exact sums of samples, to be added up across machines */
+/* SPDX-License-Identifier: MIT */
+
+/* A .qls file holds part of a picture: some rows, some sample indices. Parts of
+ * one picture add up to the very bits of the whole. Numbers are little-endian:
+ *
+ *     0   4         magic "QLS3"
+ *     4   4 * 17    the settings of SUMS_FIELD_LIST, in its order
+ *    72   4         n, the number of ranges
+ *    76   16 * n    ranges: row_first, row_end, sample_first, sample_end
+ *     .   24 * w    for each row that a range holds, from the top: for each
+ *                   pixel u64 sums of R, G and B, u40.24 radiance units
+ *     .   4         CRC-32 of everything before
+ *
+ * Ends are one past the last. Ranges do not overlap; they are sorted and joined
+ * so that equal parts have equal bytes. The samples of a pixel are those of the
+ * ranges that hold its row: their count is not stored a second time. */
+
+#ifndef SUMS_H
+#define SUMS_H
+
+#include "lib/program/cli.h"
+#include "render/ql_film.h"
+
+#define SUMS_RANGE_MAX 65536u
+
+/* What parts must have in common: name, text, smallest, largest. Signed fields
+ * are two's complement. */
+#define SUMS_FIELD_LIST(X)                                                     \
+    X(SUMS_WIDTH, "width", 1, 16384)                                           \
+    X(SUMS_HEIGHT, "height", 1, 16384)                                         \
+    X(SUMS_BLOB_CRC, "scene CRC-32", 0, 0xffffffff)                            \
+    X(SUMS_SEED, "seed", 0, 0xffffffff)                                        \
+    X(SUMS_RADIANCE_EXP, "radiance exponent", -64, 64)                         \
+    X(SUMS_EXPOSURE_Q8, "exposure", -32768, 32767)                             \
+    X(SUMS_POS_BITS, "position bits", 0, 16)                                   \
+    X(SUMS_DIR_BITS, "direction bits", 1, 31)                                  \
+    X(SUMS_BOUNCES, "bounces", 0, 255)                                         \
+    X(SUMS_SAMPLER, "sampler", 0, 255)                                         \
+    X(SUMS_DIRECT, "direct strategy", 0, 255)                                  \
+    X(SUMS_INDIRECT, "indirect strategy", 0, 255)                              \
+    X(SUMS_LIGHTS, "choice of lights", 0, 255)                                 \
+    X(SUMS_LIGHT_SAMPLES, "samples a light", 1, 255)                           \
+    X(SUMS_ROULETTE, "roulette", 0, 1)                                         \
+    X(SUMS_TABLE_BITS, "table bits", 5, 10)                                    \
+    X(SUMS_TABLE_LERP, "refined tables", 0, 1)
+
+enum {
+#define SUMS_FIELD_ENUM(name, text, min, max) name,
+    SUMS_FIELD_LIST(SUMS_FIELD_ENUM)
+#undef SUMS_FIELD_ENUM
+            SUMS_FIELD_COUNT
+};
+
+/* Rows times sample indices; the ends are one past the last. */
+typedef struct {
+    uint32_t row_first;
+    uint32_t row_end;
+    uint32_t sample_first;
+    uint32_t sample_end;
+} sums_range_t;
+
+typedef struct {
+    uint32_t field[SUMS_FIELD_COUNT];
+    uint32_t range_count;
+    sums_range_t *ranges;
+    ql_sum_t *pixels; /* width * height, rows from the top */
+    uint32_t *counts; /* samples of each pixel if they differ, which no file
+                         holds; NULL: as the ranges say */
+} sums_t;
+
+/* Take memory for black pixels; the size fields are set already. */
+void sums_new(sums_t *sums);
+void sums_free(sums_t *sums);
+
+/* Say that the pixels now hold a range too. False if one of its samples is
+ * there already, or there are too many ranges; clash then names it. */
+bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash);
+
+/* Samples in each pixel of a row. */
+uint32_t sums_row_count(const sums_t *sums, uint32_t y);
+
+/* Give each pixel a count of its own, 0 to begin. */
+void sums_own_counts(sums_t *sums);
+
+/* Decode a file's bytes, as image_decode() does. */
+const char *sums_decode(
+        sums_t *sums, const uint8_t *data, size_t size, size_t *where);
+
+/* Read a file; cli_fail(CLI_IO) or cli_fail(CLI_INPUT) with the byte offset. */
+void sums_read(sums_t *sums, const char *path);
+
+/* Write into an open file, ranges sorted and joined; counts is NULL. */
+void sums_write(sums_t *sums, cli_out_t *out);
+
+/* The first field in which two parts differ, SUMS_FIELD_COUNT if none. */
+unsigned sums_compare(const sums_t *a, const sums_t *b);
+
+/* A field's name, and its value as a number. */
+const char *sums_field_name(unsigned field);
+int64_t sums_field_value(const sums_t *sums, unsigned field);
+
+#endif

@@ -1,0 +1,494 @@
+/* recv_main.c - qlux-recv: a board's serial stream to a picture */
+/* SPDX-License-Identifier: MIT */
+
+#define _DEFAULT_SOURCE /* cfmakeraw, rates above 38400 */
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "base/ql_crc.h"
+#include "lib/program/cli.h"
+#include "app/ql_stream.h"
+
+static const char help[] =
+        "usage: qlux-recv DEVICE-or-FILE -o OUT.ppm [options]\n"
+        "Receive a picture that a board sends, until its last frame.\n"
+        "\n"
+        "  DEVICE-or-FILE  a serial device, a FIFO, a file, or - for stdin\n"
+        "  -o OUT.ppm      written only if every line arrived intact\n"
+        "  --baud N        of a serial device (115200)\n"
+        "  --stats         print the board's counters as \"key: value\" lines\n"
+        "  --quiet         no progress bar\n"
+        "\n"
+        "Bytes between frames are skipped; text lines among them that begin\n"
+        "with \"qlux: \" are shown. Under QEMU's -icount shift=0 one of the\n"
+        "nanoseconds that --stats prints is one instruction.\n"
+        "\n"
+        "Example: qlux-recv /dev/ttyACM0 -o picture.ppm --stats\n";
+
+/* Room for the longest frame twice, so that one is always whole in it. */
+#define BUFFER_BYTES (2u * QL_STREAM_FRAME_BYTES(UINT16_MAX))
+
+typedef struct {
+    int fd;
+    const char *path;
+    bool ended;
+    uint8_t bytes[BUFFER_BYTES];
+    size_t begin, end; /* what is read and not yet used */
+    char text[80];     /* a line among the skipped bytes */
+    size_t text_size;
+    uint64_t skipped; /* bytes that belong to no frame */
+} input_t;
+
+enum { LINE_MISSING, LINE_BAD, LINE_GOOD };
+
+typedef struct {
+    uint16_t width, height; /* 0 until the header arrives */
+    ql_format_t format;
+    uint32_t spp, seed;
+    size_t line_bytes;
+    uint8_t *rgb;   /* 3 * width * height */
+    uint8_t *lines; /* LINE_ of each */
+    uint32_t good, duplicates, bad_frames;
+    bool ended;
+    uint32_t end[QL_STREAM_END_BYTES / 4];
+} picture_t;
+
+static uint16_t get16(const uint8_t *at)
+{
+    return (uint16_t)(at[0] | at[1] << 8);
+}
+
+static uint32_t get32(const uint8_t *at)
+{
+    return get16(at) | (uint32_t)get16(at + 2) << 16;
+}
+
+/* ---- the input ---------------------------------------------------------- */
+
+static void set_up_tty(int fd, int64_t baud)
+{
+    static const struct {
+        int64_t baud;
+        speed_t code;
+    } rates[] = {
+            {9600, B9600},
+            {19200, B19200},
+            {38400, B38400},
+            {57600, B57600},
+            {115200, B115200},
+            {230400, B230400},
+#ifdef B460800
+            {460800, B460800},
+            {921600, B921600},
+            {1000000, B1000000},
+#endif
+    };
+    struct termios tty;
+
+    for (size_t i = 0; i < sizeof rates / sizeof *rates; i++) {
+        if (rates[i].baud == baud && tcgetattr(fd, &tty) == 0) {
+            cfmakeraw(&tty);
+            tty.c_cflag |= CLOCAL | CREAD;
+            cfsetispeed(&tty, rates[i].code);
+            cfsetospeed(&tty, rates[i].code);
+            if (tcsetattr(fd, TCSANOW, &tty) == 0) {
+                return;
+            }
+        }
+    }
+    cli_fail(CLI_USAGE, "--baud %ld: the device does not have this rate",
+            (long)baud);
+}
+
+static void open_input(input_t *in, const char *path, int64_t baud)
+{
+    memset(in, 0, sizeof *in);
+    in->path = path;
+    in->fd = strcmp(path, "-") == 0 ? 0 : open(path, O_RDONLY | O_NOCTTY);
+    if (in->fd < 0) {
+        cli_fail(CLI_IO, "%s: %s", path, strerror(errno));
+    }
+    if (isatty(in->fd)) {
+        set_up_tty(in->fd, baud);
+    }
+}
+
+/* Wait for more bytes, at most half a second. False: none came. */
+static bool read_more(input_t *in)
+{
+    struct pollfd wait = {in->fd, POLLIN, 0};
+    ssize_t n;
+
+    if (cli_interrupted()) {
+        cli_fail(CLI_INPUT, "%s: interrupted", in->path);
+    }
+    if (poll(&wait, 1, 500) <= 0) {
+        return false;
+    }
+    memmove(in->bytes, in->bytes + in->begin, in->end - in->begin);
+    in->end -= in->begin;
+    in->begin = 0;
+    n = read(in->fd, in->bytes + in->end, BUFFER_BYTES - in->end);
+    if (n < 0 && errno != EINTR && errno != EAGAIN) {
+        cli_fail(CLI_IO, "%s: %s", in->path, strerror(errno));
+    }
+    in->ended = n == 0;
+    in->end += n > 0 ? (size_t)n : 0;
+    return n > 0;
+}
+
+/* Pass over bytes that are no frame, and show a board's own text in them. */
+static void skip(input_t *in, size_t count)
+{
+    static const char mine[] = "qlux: ";
+
+    in->skipped += count;
+    for (; count > 0; count--) {
+        const char c = (char)in->bytes[in->begin++];
+        const bool fits = in->text_size + 1 < sizeof in->text;
+        const bool starts =
+                in->text_size >= sizeof mine - 1 || c == mine[in->text_size];
+        if (c == '\n' && in->text_size > sizeof mine - 1) {
+            in->text[in->text_size] = '\0';
+            fprintf(stderr, "board: %s\n", in->text + sizeof mine - 1);
+        }
+        if (c >= ' ' && c <= '~' && fits && starts) {
+            in->text[in->text_size++] = c;
+        } else {
+            in->text_size = 0;
+        }
+    }
+}
+
+/* ---- frames ------------------------------------------------------------- */
+
+typedef enum { NO_FRAME, PART_OF_FRAME, BAD_FRAME, GOOD_FRAME } verdict_t;
+
+/* Payload that a frame of this type has now; 0 if it makes no sense. */
+static size_t payload_bytes(const picture_t *picture, uint8_t type)
+{
+    switch (type) {
+    case QL_STREAM_HEAD:
+        return QL_STREAM_HEAD_BYTES;
+    case QL_STREAM_LINE:
+        return picture->width == 0
+                       ? 0
+                       : QL_STREAM_LINE_PREFIX + picture->line_bytes;
+    case QL_STREAM_END:
+        return QL_STREAM_END_BYTES;
+    default:
+        return 0;
+    }
+}
+
+static verdict_t judge(
+        const picture_t *picture, const uint8_t *at, size_t left, size_t *size)
+{
+    if (at[0] != QL_STREAM_MARK0 || (left > 1 && at[1] != QL_STREAM_MARK1)) {
+        return NO_FRAME;
+    }
+    if (left < QL_STREAM_PREFIX) {
+        return PART_OF_FRAME;
+    }
+    *size = payload_bytes(picture, at[2]);
+    if (*size == 0 || get16(at + 3) != *size) {
+        return NO_FRAME;
+    }
+    if (left < QL_STREAM_FRAME_BYTES(*size)) {
+        return PART_OF_FRAME;
+    }
+    return ql_crc32(0, at + 2, *size + 3) ==
+                           get32(at + QL_STREAM_PREFIX + *size)
+                   ? GOOD_FRAME
+                   : BAD_FRAME;
+}
+
+/* Nothing comes any more, but what lies here looks like the start of a frame.
+ * If a whole good one follows, it was not: skip to that. */
+static void skip_to_whole_frame(input_t *in, const picture_t *picture)
+{
+    size_t size;
+
+    for (size_t i = in->begin + 1; i < in->end; i++) {
+        if (judge(picture, in->bytes + i, in->end - i, &size) == GOOD_FRAME) {
+            skip(in, i - in->begin);
+            return;
+        }
+    }
+}
+
+/* ---- the picture -------------------------------------------------------- */
+
+static void begin_picture(picture_t *picture, const uint8_t *payload)
+{
+    const uint16_t width = get16(payload), height = get16(payload + 2);
+
+    free(picture->rgb);
+    free(picture->lines);
+    memset(picture, 0, sizeof *picture);
+    if (width == 0 || width > QL_IMAGE_MAX || height == 0 ||
+            height > QL_IMAGE_MAX || payload[4] >= QL_FORMAT_COUNT) {
+        cli_fail(CLI_INPUT,
+                "header: %u x %u pixels of format %u: expected sides of 1 to "
+                "%u and a format below %u",
+                width, height, payload[4], QL_IMAGE_MAX, QL_FORMAT_COUNT);
+    }
+    picture->width = width;
+    picture->height = height;
+    picture->format = (ql_format_t)payload[4];
+    picture->spp = get32(payload + 8);
+    picture->seed = get32(payload + 12);
+    picture->line_bytes = QL_LINE_BYTES(width, picture->format);
+    picture->rgb = calloc((size_t)width * height, 3);
+    picture->lines = calloc(height, 1);
+    if (picture->rgb == NULL || picture->lines == NULL) {
+        cli_fail(CLI_IO, "not enough memory for %u x %u pixels", width, height);
+    }
+}
+
+/* A 5- or 6-bit level as 8 bits: white stays white. */
+static uint8_t widen(unsigned level, unsigned bits)
+{
+    return (uint8_t)(level << (8 - bits) | level >> (2 * bits - 8));
+}
+
+static void decode_pixel(
+        uint8_t rgb[3], ql_format_t format, const uint8_t *line, unsigned x)
+{
+    const unsigned low = format == QL_FORMAT_RGB565_LE ? 0 : 1;
+    unsigned bits;
+
+    switch (format) {
+    case QL_FORMAT_RGB888:
+        memcpy(rgb, line + 3 * x, 3);
+        break;
+    case QL_FORMAT_RGB565_LE:
+    case QL_FORMAT_RGB565_BE:
+        bits = line[2 * x + low] | (unsigned)line[2 * x + 1 - low] << 8;
+        rgb[0] = widen(bits >> 11, 5);
+        rgb[1] = widen(bits >> 5 & 63, 6);
+        rgb[2] = widen(bits & 31, 5);
+        break;
+    case QL_FORMAT_GRAY8:
+        memset(rgb, line[x], 3);
+        break;
+    case QL_FORMAT_GRAY4:
+        bits = line[x / 2];
+        memset(rgb, (int)(x % 2 == 0 ? bits >> 4 : bits & 15) * 17, 3);
+        break;
+    }
+}
+
+static void take_line(picture_t *picture, const uint8_t *payload)
+{
+    const uint16_t y = get16(payload);
+
+    if (y >= picture->height) {
+        picture->bad_frames++;
+        return;
+    }
+    for (unsigned x = 0; x < picture->width; x++) {
+        decode_pixel(picture->rgb + 3 * ((size_t)y * picture->width + x),
+                picture->format, payload + QL_STREAM_LINE_PREFIX, x);
+    }
+    if (picture->lines[y] == LINE_GOOD) {
+        picture->duplicates++;
+    } else {
+        picture->good++;
+    }
+    picture->lines[y] = LINE_GOOD;
+}
+
+static void take_frame(picture_t *picture, const uint8_t *frame)
+{
+    const uint8_t *payload = frame + QL_STREAM_PREFIX;
+
+    switch (frame[2]) {
+    case QL_STREAM_HEAD:
+        begin_picture(picture, payload);
+        break;
+    case QL_STREAM_LINE:
+        take_line(picture, payload);
+        break;
+    default:
+        picture->ended = true;
+        for (unsigned i = 0; i < QL_STREAM_END_BYTES / 4; i++) {
+            picture->end[i] = get32(payload + 4 * i);
+        }
+    }
+}
+
+/* A frame whose CRC is wrong: its line number may be wrong too, but helps. */
+static void note_bad_frame(picture_t *picture, const uint8_t *frame)
+{
+    const uint16_t y = get16(frame + QL_STREAM_PREFIX);
+
+    picture->bad_frames++;
+    if (frame[2] == QL_STREAM_LINE && y < picture->height &&
+            picture->lines[y] == LINE_MISSING) {
+        picture->lines[y] = LINE_BAD;
+    }
+}
+
+static void receive(input_t *in, picture_t *picture, bool quiet)
+{
+    while (!picture->ended) {
+        verdict_t verdict = PART_OF_FRAME;
+        size_t size = 0;
+
+        if (in->begin < in->end) {
+            verdict = judge(
+                    picture, in->bytes + in->begin, in->end - in->begin, &size);
+        } else if (in->ended) {
+            return;
+        }
+        if (verdict == PART_OF_FRAME && !in->ended) {
+            if (!read_more(in) && !in->ended) {
+                skip_to_whole_frame(in, picture);
+            }
+        } else if (verdict == GOOD_FRAME) {
+            take_frame(picture, in->bytes + in->begin);
+            in->begin += QL_STREAM_FRAME_BYTES(size);
+            cli_progress("receiving", picture->good,
+                    picture->height > 0 ? picture->height : 1, quiet);
+        } else {
+            if (verdict == BAD_FRAME) {
+                note_bad_frame(picture, in->bytes + in->begin);
+            }
+            skip(in, 1);
+        }
+    }
+}
+
+/* ---- what comes of it --------------------------------------------------- */
+
+/* "lines 3, 17-20 missing", on stderr. */
+static void list_lines(const picture_t *picture, int state, const char *what)
+{
+    const char *separator = "lines ";
+
+    for (unsigned y = 0; y < picture->height; y++) {
+        const unsigned first = y;
+        if (picture->lines[y] != state) {
+            continue;
+        }
+        while (y + 1 < picture->height && picture->lines[y + 1] == state) {
+            y++;
+        }
+        fprintf(stderr, "%s%u", separator, first);
+        if (y > first) {
+            fprintf(stderr, "-%u", y);
+        }
+        separator = ", ";
+    }
+    if (separator[0] == ',') {
+        fprintf(stderr, " %s\n", what);
+    }
+}
+
+/* Everything arrived and the board says it is done; or does not return. */
+static void check_complete(const picture_t *picture, const char *path)
+{
+    const int32_t status = ql_i32(picture->end[0]);
+
+    if (picture->height > 0 && picture->good < picture->height) {
+        list_lines(picture, LINE_BAD, "have a wrong CRC");
+        list_lines(picture, LINE_MISSING, "are missing");
+    }
+    if (picture->ended && status != QL_OK) {
+        cli_fail(CLI_INPUT, "%s: the board stopped with status %ld: %s", path,
+                (long)status, ql_status_text((ql_status_t)status));
+    }
+    if (picture->height == 0) {
+        cli_fail(CLI_INPUT, "%s: no picture header found", path);
+    }
+    if (picture->good < picture->height) {
+        cli_fail(CLI_INPUT, "%s: %lu of %u lines arrived", path,
+                (unsigned long)picture->good, picture->height);
+    }
+    if (!picture->ended) {
+        cli_fail(CLI_INPUT, "%s: ends without the end frame", path);
+    }
+}
+
+static void print_stats(const picture_t *picture, const input_t *in)
+{
+    static const char *const keys[QL_STREAM_END_BYTES / 4] = {"status", "paths",
+            "closest_rays", "shadow_rays", "saturated", "ticks", "tick_hz",
+            "faint"};
+    const uint32_t ticks = picture->end[5], hz = picture->end[6];
+
+    printf("width: %u\nheight: %u\nspp: %lu\nseed: %lu\n", picture->width,
+            picture->height, (unsigned long)picture->spp,
+            (unsigned long)picture->seed);
+    for (unsigned i = 0; i < QL_STREAM_END_BYTES / 4; i++) {
+        printf("%s: %lu\n", keys[i], (unsigned long)picture->end[i]);
+    }
+    /* ticks < 2^32 and 10^9 < 2^30, so the product is < 2^62. */
+    printf("nanoseconds: %llu\n", hz == 0 ? 0ull : ticks * 1000000000ull / hz);
+    printf("duplicate_lines: %lu\nbad_frames: %lu\nskipped_bytes: %llu\n",
+            (unsigned long)picture->duplicates,
+            (unsigned long)picture->bad_frames,
+            (unsigned long long)in->skipped);
+}
+
+static void write_picture(const picture_t *picture, const char *path)
+{
+    const size_t size = 3 * (size_t)picture->width * picture->height;
+    cli_out_t out;
+
+    cli_out_open(&out, path);
+    fprintf(out.file, "P6\n%u %u\n255\n", picture->width, picture->height);
+    fwrite(picture->rgb, 1, size, out.file);
+    cli_out_commit(&out);
+}
+
+int main(int argc, char **argv)
+{
+    static input_t in;
+    static picture_t picture;
+    const char *from = NULL, *to = NULL;
+    int64_t baud = 115200;
+    bool stats = false, quiet = false;
+
+    cli_begin("qlux-recv");
+    for (int i = 1; i < argc; i++) {
+        const char *arg = argv[i];
+        if (strcmp(arg, "--help") == 0) {
+            fputs(help, stdout);
+            return CLI_DONE;
+        } else if (strcmp(arg, "-o") == 0 && i + 1 < argc) {
+            to = argv[++i];
+        } else if (strcmp(arg, "--baud") == 0) {
+            baud = cli_number(arg, argv[++i], 1, INT32_MAX);
+        } else if (strcmp(arg, "--stats") == 0) {
+            stats = true;
+        } else if (strcmp(arg, "--quiet") == 0) {
+            quiet = true;
+        } else if (from == NULL && (arg[0] != '-' || arg[1] == '\0')) {
+            from = arg;
+        } else {
+            cli_fail(CLI_USAGE, "%s: not expected here; see --help", arg);
+        }
+    }
+    if (from == NULL || to == NULL) {
+        cli_fail(CLI_USAGE, "needs DEVICE-or-FILE and -o OUT.ppm; see --help");
+    }
+
+    open_input(&in, from, baud);
+    receive(&in, &picture, quiet);
+    check_complete(&picture, from);
+    write_picture(&picture, to);
+    if (stats) {
+        print_stats(&picture, &in);
+    }
+    free(picture.rgb);
+    free(picture.lines);
+    return CLI_DONE;
+}

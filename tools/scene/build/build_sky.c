@@ -1,0 +1,183 @@
+/* build_sky.c - light from all around, in fixed point */
+/* SPDX-License-Identifier: MIT */
+
+#include "scene/build/build_sky.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "scene/build/add_table.h"
+#include "lib/program/cli.h"
+
+enum { TEXEL_BITS = 9, TEXEL_MOST = 511, SCALE_MOST = 23, ROW_BITS = 40 };
+
+soft_t sky_most(const world_sky_t *sky)
+{
+    const size_t n =
+            sky->map != NULL ? 3 * (size_t)sky->width * sky->height : 0;
+    double most = 0;
+
+    for (size_t i = 0; i < n; i++) {
+        most = sky->map[i] > most ? (double)sky->map[i] : most;
+    }
+    if (n > 0) {
+        /* 2^32 units stand for what a texel reaches, 511 2^23 = 1022/1024 */
+        return soft_div(soft_from(most), soft_int(1022, -10));
+    }
+    for (int k = 0; k < 3; k++) {
+        most = sky->colour[k] > most ? sky->colour[k] : most;
+    }
+    return soft_from(most);
+}
+
+/* ---- a map ---- */
+
+/* Channels of a texel in u0.32 radiance units. */
+static void texel_channels(ql_blob_texel_t texel, uint32_t channels[3])
+{
+    for (unsigned k = 0; k < 3; k++) {
+        channels[k] = (texel.rgb9e5 >> TEXEL_BITS * k & TEXEL_MOST)
+                      << (texel.rgb9e5 >> 27);
+    }
+}
+
+/* The largest channel keeps nine bits if it has them; by sky_most() none is
+ * above 511 2^23. */
+static ql_blob_texel_t round_texel(const float *rgb, int radiance_exp)
+{
+    ql_blob_texel_t texel = {0};
+    soft_t most = soft_int(0, 0);
+    int e = 0;
+
+    for (int k = 0; k < 3; k++) {
+        const soft_t x = soft_from((double)rgb[k]);
+
+        most = soft_compare(x, most) > 0 ? x : most;
+    }
+    while (e < SCALE_MOST &&
+            soft_round(most, 32 - radiance_exp - e) > TEXEL_MOST) {
+        e++;
+    }
+    texel.rgb9e5 = (uint32_t)e << 27;
+    for (int k = 0; k < 3; k++) {
+        const int64_t m =
+                soft_round(soft_from((double)rgb[k]), 32 - radiance_exp - e);
+
+        texel.rgb9e5 |= (uint32_t)m << TEXEL_BITS * k; /* m <= 511 */
+    }
+    return texel;
+}
+
+/* sin(theta) at the middle of a row: the solid angle of a texel is that times
+ * 4 pi sin(pi / 2h) / w. An integer, so that every host has the same. */
+static int64_t row_sine(uint32_t row, uint32_t height)
+{
+    const soft_t x =
+            soft_div(soft_int(2 * (int64_t)row + 1, -1), soft_int(height, 0));
+
+    return soft_round(soft_sin_pi(x), ROW_BITS);
+}
+
+/* What a texel sends: the sum of its channels times the sine of its row. The
+ * sum is 11 bits times a power of two, the sine 41: no double rounds it. */
+static double texel_weight(ql_blob_texel_t texel, int64_t sine)
+{
+    uint32_t sum = 0;
+
+    for (unsigned k = 0; k < 3; k++) {
+        sum += texel.rgb9e5 >> TEXEL_BITS * k & TEXEL_MOST;
+    }
+    return ldexp((double)((int64_t)sum * sine), (int)(texel.rgb9e5 >> 27));
+}
+
+static void build_map(model_t *model, const world_t *world)
+{
+    const world_sky_t *sky = &world->sky;
+    const uint32_t n = sky->width * sky->height; /* <= 2^24 */
+    double *weights = cli_alloc(n, sizeof *weights);
+    world_table_t table = {2, {0, 0, 1}, NULL};
+    bool black = true;
+
+    model->texels = cli_alloc(n, sizeof *model->texels);
+    model->texels_count = n;
+    for (uint32_t y = 0; y < sky->height; y++) {
+        const int64_t sine = row_sine(y, sky->height);
+
+        for (uint32_t i = y * sky->width; i < (y + 1) * sky->width; i++) {
+            model->texels[i] = round_texel(
+                    sky->map + 3 * (size_t)i, model->header.radiance_exp);
+            weights[i] = texel_weight(model->texels[i], sine);
+            black = black && weights[i] == 0;
+        }
+    }
+    if (black) {
+        cli_fail(CLI_INPUT,
+                "%s: expected a sky less than 2^32 times as dim as "
+                "the brightest light",
+                world->path);
+    }
+    table.count[0] = (uint16_t)sky->width; /* <= 4096 */
+    table.count[1] = (uint16_t)sky->height;
+    table.weights = weights;
+    model->sky->width = table.count[0];
+    model->sky->height = table.count[1];
+    model->sky->table = (uint16_t)model->tables_count;
+    model->sky->rotate = (uint32_t)(uint64_t)soft_round(
+            soft_div(soft_from(sky->rotate), soft_int(360, 0)), 32);
+    add_table(model, &table, world->path);
+    free(weights);
+}
+
+/* ---- the whole ---- */
+
+void build_sky(model_t *model, const world_t *world)
+{
+    const int bits = 32 - model->header.radiance_exp;
+
+    if (sky_most(&world->sky).m == 0) {
+        return;
+    }
+    model->sky = cli_alloc(1, sizeof *model->sky);
+    model->sky_count = 1;
+    if (world->sky.map != NULL) {
+        build_map(model, world);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        const soft_t x = soft_from(world->sky.colour[k]);
+        const uint32_t rounded = (uint32_t)soft_round(x, bits);
+
+        /* what shines must not stop to do so; 2^32 cannot be reached */
+        model->sky->emission[k] = rounded == 0 && x.m != 0 ? 1 : rounded;
+    }
+}
+
+static soft_t sum_of(const uint32_t channels[3])
+{
+    return soft_int(
+            (int64_t)((uint64_t)channels[0] + channels[1] + channels[2]), 0);
+}
+
+soft_t sky_mean(const model_t *model)
+{
+    const uint32_t width = model->sky->width, height = model->sky->height;
+    soft_t sum = soft_int(0, 0), angle = soft_int(0, 0);
+
+    if (width == 0) {
+        return sum_of(model->sky->emission);
+    }
+    for (uint32_t y = 0; y < height; y++) {
+        const soft_t sine = soft_int(row_sine(y, height), 0);
+        soft_t row = soft_int(0, 0);
+
+        for (uint32_t i = y * width; i < (y + 1) * width; i++) {
+            uint32_t channels[3];
+
+            texel_channels(model->texels[i], channels);
+            row = soft_add(row, sum_of(channels));
+        }
+        sum = soft_add(sum, soft_mul(row, sine));
+        angle = soft_add(angle, sine);
+    }
+    return soft_div(sum, soft_mul(angle, soft_int(width, 0)));
+}

@@ -1,0 +1,321 @@
+/* quantise.c - the scene on its integer grid, and what that loses */
+/* SPDX-License-Identifier: MIT */
+
+#include "scene/mesh/quantise.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/program/cli.h"
+#include "scene/ql_blob.h"
+#include "scene/mesh/smooth.h"
+
+#define NONE UINT32_MAX
+
+static bool same_point(const world_t *world, uint32_t a, uint32_t b)
+{
+    const double *p = world->vertices[a], *q = world->vertices[b];
+
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
+/* Two corners in one place: such a face must not widen the box. */
+static bool is_flat(const world_t *world, const world_face_t *face)
+{
+    const uint32_t *v = face->vertex;
+
+    return same_point(world, v[0], v[1]) || same_point(world, v[1], v[2]) ||
+           same_point(world, v[2], v[0]);
+}
+
+/* Box of the world, exact. */
+typedef struct {
+    soft_t low[3], high[3];
+    bool any;
+} extent_t;
+
+static void extend(extent_t *extent, int k, soft_t low, soft_t high)
+{
+    if (!extent->any || soft_compare(low, extent->low[k]) < 0) {
+        extent->low[k] = low;
+    }
+    if (!extent->any || soft_compare(high, extent->high[k]) > 0) {
+        extent->high[k] = high;
+    }
+}
+
+static void extend_by_face(
+        extent_t *extent, const world_t *world, const world_face_t *face)
+{
+    for (int i = 0; i < 3; i++) {
+        const double *p = world->vertices[face->vertex[i]];
+
+        for (int k = 0; k < 3; k++) {
+            extend(extent, k, soft_from(p[k]), soft_from(p[k]));
+        }
+        extent->any = true;
+    }
+}
+
+static void extend_by_sphere(extent_t *extent, const world_sphere_t *sphere)
+{
+    const soft_t r = soft_from(sphere->radius);
+
+    for (int k = 0; k < 3; k++) {
+        const soft_t c = soft_from(sphere->centre[k]);
+
+        extend(extent, k, soft_sub(c, r), soft_add(c, r));
+    }
+    extent->any = true;
+}
+
+/* Find the scale and the origin from the box of everything. */
+static void fit_box(grid_t *grid, const world_t *world)
+{
+    soft_t span = soft_int(0, 0);
+    extent_t extent;
+
+    memset(&extent, 0, sizeof extent);
+    for (size_t f = 0; f < world->face_count; f++) {
+        if (!is_flat(world, world->faces + f)) {
+            extend_by_face(&extent, world, world->faces + f);
+        }
+    }
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        extend_by_sphere(&extent, world->spheres + i);
+    }
+    for (int k = 0; k < 3; k++) {
+        const soft_t side = soft_sub(extent.high[k], extent.low[k]);
+
+        /* with nothing to see, the camera may as well be at the origin */
+        grid->origin[k] =
+                extent.any ? extent.low[k] : soft_from(world->camera.eye[k]);
+        span = soft_compare(side, span) > 0 ? side : span;
+    }
+    if (span.m == 0) {
+        span = soft_int(GRID_HIGH - GRID_LOW, 0);
+    }
+    grid->unit = soft_div(span, soft_int(GRID_HIGH - GRID_LOW, 0));
+}
+
+/* Grid vertices by position: open addressing, at most half full. */
+typedef struct {
+    uint32_t *slots;
+    size_t mask;
+} finder_t;
+
+static void finder_open(finder_t *finder, size_t count)
+{
+    size_t size = 16;
+
+    while (size < 2 * count) {
+        size *= 2;
+    }
+    finder->slots = cli_alloc(size, sizeof *finder->slots);
+    memset(finder->slots, 0xff, size * sizeof *finder->slots);
+    finder->mask = size - 1;
+}
+
+/* The grid vertex at p, a new one if there is none. */
+static uint32_t find_vertex(finder_t *finder, grid_t *grid, const uint16_t p[3])
+{
+    const uint64_t key =
+            (uint64_t)p[0] << 32 | (uint64_t)p[1] << 16 | (uint64_t)p[2];
+    size_t slot = (size_t)(key * 0x9e3779b97f4a7c15u >> 20) & finder->mask;
+
+    while (finder->slots[slot] != NONE) {
+        const uint32_t found = finder->slots[slot];
+
+        if (memcmp(grid->vertices[found], p, 3 * sizeof *p) == 0) {
+            grid->merged_count++;
+            return found;
+        }
+        slot = (slot + 1) & finder->mask;
+    }
+    finder->slots[slot] = grid->vertex_count;
+    memcpy(grid->vertices[grid->vertex_count], p, 3 * sizeof *p);
+    return grid->vertex_count++;
+}
+
+static uint32_t round_vertex(finder_t *finder, grid_t *grid, const double p[3])
+{
+    uint16_t q[3];
+
+    for (int k = 0; k < 3; k++) {
+        const soft_t x = soft_sub(soft_from(p[k]), grid->origin[k]);
+
+        /* inside the box: 0..32751 */
+        q[k] = (uint16_t)(GRID_LOW + soft_round(soft_div(x, grid->unit), 0));
+    }
+    return find_vertex(finder, grid, q);
+}
+
+void grid_normal(const grid_t *grid, const grid_face_t *face, int64_t n[3])
+{
+    int64_t a[3], b[3];
+
+    for (int k = 0; k < 3; k++) {
+        const int64_t p = grid->vertices[face->vertex[0]][k];
+
+        a[k] = grid->vertices[face->vertex[1]][k] - p;
+        b[k] = grid->vertices[face->vertex[2]][k] - p;
+    }
+    n[0] = a[1] * b[2] - a[2] * b[1];
+    n[1] = a[2] * b[0] - a[0] * b[2];
+    n[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+void grid_box(const grid_t *grid, const grid_face_t *face, uint16_t low[3],
+        uint16_t high[3])
+{
+    if (face->sphere != 0) {
+        const ql_blob_sphere_t *s = grid->spheres + face->sphere - 1;
+
+        for (int k = 0; k < 3; k++) {
+            low[k] = (uint16_t)((s->centre[k] - s->radius) >> 8);
+            high[k] = (uint16_t)((s->centre[k] + s->radius + 255) >> 8);
+        }
+        return;
+    }
+    memcpy(low, grid->vertices[face->vertex[0]], 3 * sizeof *low);
+    memcpy(high, low, 3 * sizeof *high);
+    for (int i = 1; i < 3; i++) {
+        const uint16_t *p = grid->vertices[face->vertex[i]];
+
+        for (int k = 0; k < 3; k++) {
+            low[k] = p[k] < low[k] ? p[k] : low[k];
+            high[k] = p[k] > high[k] ? p[k] : high[k];
+        }
+    }
+}
+
+static void append_face(grid_t *grid, const grid_face_t *face)
+{
+    uint16_t low[3], high[3];
+
+    grid_box(grid, face, low, high);
+    for (int k = 0; k < 3; k++) {
+        grid->low[k] = low[k] < grid->low[k] ? low[k] : grid->low[k];
+        grid->high[k] = high[k] > grid->high[k] ? high[k] : grid->high[k];
+    }
+    grid->faces[grid->face_count++] = *face;
+}
+
+static bool has_area(const grid_t *grid, const grid_face_t *face)
+{
+    int64_t n[3];
+
+    grid_normal(grid, face, n);
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+}
+
+/* Does it leave the part of the grid that holds the scene? */
+static bool pokes_out(const ql_blob_sphere_t *sphere)
+{
+    bool out = false;
+
+    for (int k = 0; k < 3; k++) {
+        out = out || sphere->centre[k] < (GRID_LOW << 8) + sphere->radius ||
+              sphere->centre[k] + sphere->radius > GRID_HIGH << 8;
+    }
+    return out;
+}
+
+static void round_sphere(grid_t *grid, const world_t *world, uint32_t index)
+{
+    const world_sphere_t *from = world->spheres + index;
+    grid_face_t face = {{0, 0, 0}, 0, 0, 0};
+    ql_blob_sphere_t sphere;
+
+    sphere.radius = (uint32_t)soft_round(
+            soft_div(soft_from(from->radius), grid->unit), 8);
+    for (int k = 0; k < 3; k++) {
+        const soft_t x = soft_sub(soft_from(from->centre[k]), grid->origin[k]);
+
+        /* inside the box: below 2^23 */
+        sphere.centre[k] = (uint32_t)((GRID_LOW << 8) +
+                                      soft_round(soft_div(x, grid->unit), 8));
+    }
+    /* it did not before rounding, so a step or two suffice */
+    while (sphere.radius > 0 && pokes_out(&sphere)) {
+        sphere.radius--;
+    }
+    if (sphere.radius < 256) {
+        grid->tiny_count++;
+        return;
+    }
+    grid->spheres[grid->sphere_count++] = sphere;
+    face.material = from->material;
+    face.sphere = grid->sphere_count;
+    face.source = index;
+    append_face(grid, &face);
+}
+
+static void round_faces(grid_t *grid, const world_t *world)
+{
+    uint32_t *rounded = cli_alloc(world->vertex_count, sizeof *rounded);
+    finder_t finder;
+
+    memset(rounded, 0xff, world->vertex_count * sizeof *rounded);
+    finder_open(&finder, world->vertex_count);
+    for (size_t f = 0; f < world->face_count; f++) {
+        const world_face_t *from = world->faces + f;
+        grid_face_t face;
+
+        if (is_flat(world, from)) {
+            grid->flat_count++;
+            continue;
+        }
+        face.material = from->material;
+        face.sphere = 0;
+        face.source = (uint32_t)f;
+        for (int i = 0; i < 3; i++) {
+            const uint32_t v = from->vertex[i];
+
+            if (rounded[v] == NONE) {
+                rounded[v] = round_vertex(&finder, grid, world->vertices[v]);
+            }
+            face.vertex[i] = rounded[v];
+        }
+        if (has_area(grid, &face)) {
+            append_face(grid, &face);
+        } else {
+            grid->tiny_count++;
+        }
+    }
+    free(finder.slots);
+    free(rounded);
+}
+
+void quantise(grid_t *grid, const world_t *world)
+{
+    memset(grid, 0, sizeof *grid);
+    grid->vertices = cli_alloc(world->vertex_count, sizeof *grid->vertices);
+    grid->faces = cli_alloc(
+            world->face_count + world->sphere_count, sizeof *grid->faces);
+    grid->spheres = cli_alloc(world->sphere_count, sizeof *grid->spheres);
+    for (int k = 0; k < 3; k++) {
+        grid->low[k] = UINT16_MAX;
+    }
+    fit_box(grid, world);
+    round_faces(grid, world);
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        round_sphere(grid, world, (uint32_t)i); /* lines of a text: < 2^32 */
+    }
+    if (grid->face_count > QL_TRI_MAX) {
+        cli_fail(CLI_INPUT,
+                "%s: expected %lu triangles and spheres at most, found %lu",
+                world->path, (unsigned long)QL_TRI_MAX,
+                (unsigned long)grid->face_count);
+    }
+    smooth(grid, world);
+}
+
+void grid_free(grid_t *grid)
+{
+    free(grid->vertices);
+    free(grid->normals);
+    free(grid->faces);
+    free(grid->spheres);
+    memset(grid, 0, sizeof *grid);
+}

@@ -1,0 +1,38 @@
+/* read_mtl.h - materials from MTL files, and sets of names */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef READ_MTL_H
+#define READ_MTL_H
+
+#include "scene/world.h"
+
+/* Names that have been seen. All zero is the empty set. */
+typedef struct {
+    char **names;
+    size_t count, capacity;
+} names_t;
+
+/* Add a name; false if it was there already. */
+bool names_add(names_t *set, const char *name);
+
+void names_free(names_t *set);
+
+/* Append the materials of an MTL file to a world. What they become:
+ *
+ *   illum 7              glass of Ni and Tf; Kd and Ks mean nothing
+ *   illum 3 or 5, Ks     a mirror of Ks beside Kd
+ *   illum 0 or 1         Kd only
+ *   other or none, Ks    the Phong lobe of Ks and Ns beside Kd
+ *
+ * Ke makes any of them a light. Anything else that would change the picture is
+ * reported once by name on stderr; so is what is out of range, once each.
+ *
+ *   world  -  in, out
+ *   path   -  of the MTL file
+ *
+ * Fails: exit 2 with file and line of what is wrong; exit 3 if it cannot be
+ *        read.
+ */
+void read_mtl(world_t *world, const char *path);
+
+#endif

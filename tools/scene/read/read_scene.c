@@ -1,0 +1,397 @@
+/* read_scene.c - the .scene text and the meshes it names */
+/* SPDX-License-Identifier: MIT */
+
+#include "scene/read/read_scene.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/program/cli.h"
+#include "lib/program/alloc.h"
+#include "scene/read/read_obj.h"
+#include "scene/read/read_sky.h"
+#include "scene/read/read_table.h"
+#include "scene/ql_blob.h"
+#include "lib/math/soft.h"
+
+#define EXPOSURE_MAX 64
+
+/* Keys of the language, in the order of the bits of seen. */
+enum {
+    MESH,
+    CAMERA,
+    IMAGE,
+    EXPOSURE,
+    LIGHTS,
+    LENS,
+    SKY,
+    SPHERE,
+    TABLE,
+    KEY_COUNT
+};
+
+#define ROTATE_MAX 1e6 /* degrees */
+
+static const char *const key_names[KEY_COUNT] = {
+        "mesh",
+        "camera",
+        "image",
+        "exposure",
+        "lights",
+        "lens",
+        "sky",
+        "sphere",
+        "table",
+};
+
+static void read_vector(text_t *text, const char *what, double vector[3])
+{
+    for (int k = 0; k < 3; k++) {
+        vector[k] = text_number(text, what);
+    }
+}
+
+/* The squared length of (a - b) x up. */
+static soft_t cross_square(
+        const double a[3], const double b[3], const double up[3])
+{
+    soft_t sum = soft_int(0, 0);
+
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const soft_t fj = soft_sub(soft_from(a[j]), soft_from(b[j]));
+        const soft_t fk = soft_sub(soft_from(a[k]), soft_from(b[k]));
+        const soft_t c = soft_sub(
+                soft_mul(fj, soft_from(up[k])), soft_mul(fk, soft_from(up[j])));
+
+        sum = soft_add(sum, soft_mul(c, c));
+    }
+    return sum;
+}
+
+/* The squared length of a - b. */
+static soft_t distance_square(const double a[3], const double b[3])
+{
+    soft_t sum = soft_int(0, 0);
+
+    for (int k = 0; k < 3; k++) {
+        const soft_t d = soft_sub(soft_from(a[k]), soft_from(b[k]));
+
+        sum = soft_add(sum, soft_mul(d, d));
+    }
+    return sum;
+}
+
+static void check_camera(const text_t *text, const world_camera_t *camera)
+{
+    static const double zero[3] = {0, 0, 0};
+    const soft_t view = distance_square(camera->look, camera->eye);
+    const soft_t up = distance_square(camera->up, zero);
+    soft_t least = soft_mul(view, up);
+
+    if (view.m == 0) {
+        text_fail(text, "expected camera 'eye' and 'look' at different points");
+    }
+    if (up.m == 0) {
+        text_fail(text, "expected camera 'up' that is not 0 0 0");
+    }
+    least.e -= 40; /* sin^2 of the angle: a millionth, squared */
+    if (soft_compare(cross_square(camera->look, camera->eye, camera->up),
+                least) <= 0) {
+        text_fail(text, "expected camera 'up' not parallel to the view");
+    }
+}
+
+static void read_camera(text_t *text, world_camera_t *camera)
+{
+    static const char *const names[] = {"eye", "look", "up", "fov"};
+    unsigned seen = 0;
+    const char *word;
+
+    camera->up[0] = camera->up[2] = 0;
+    camera->up[1] = 1;
+    while ((word = text_word(text)) != NULL) {
+        unsigned i = 0;
+
+        while (i < 4 && strcmp(word, names[i]) != 0) {
+            i++;
+        }
+        if (i == 4 || (seen & 1u << i) != 0) {
+            text_fail(text,
+                    "expected each of eye, look, up, fov once, found "
+                    "'%s'",
+                    word);
+        }
+        seen |= 1u << i;
+        if (i == 3) {
+            camera->fov = text_number(text, "the field of view in degrees");
+        } else {
+            read_vector(text, "three coordinates",
+                    i == 0   ? camera->eye
+                    : i == 1 ? camera->look
+                             : camera->up);
+        }
+    }
+    if ((seen & 1u) == 0 || (seen & 2u) == 0 || (seen & 8u) == 0) {
+        text_fail(text, "expected camera eye X Y Z look X Y Z [up X Y Z] "
+                        "fov DEGREES");
+    }
+    if (!(camera->fov > 0 && camera->fov < 180)) {
+        text_fail(text, "expected a fov above 0 and below 180 degrees");
+    }
+    check_camera(text, camera);
+}
+
+static void read_exposure(text_t *text, world_t *world)
+{
+    world->exposure = text_number(text, "the exposure in stops");
+    if (world->exposure < -EXPOSURE_MAX || world->exposure > EXPOSURE_MAX) {
+        text_fail(text, "expected an exposure of %d to %d stops", -EXPOSURE_MAX,
+                EXPOSURE_MAX);
+    }
+}
+
+static void read_lights(text_t *text, world_t *world)
+{
+    const char *word = text_word(text);
+
+    if (word == NULL || (strcmp(word, "two-sided") != 0 &&
+                                strcmp(word, "one-sided") != 0)) {
+        text_fail(text, "expected lights one-sided or two-sided");
+    }
+    world->two_sided = word[0] == 't';
+}
+
+/* The path of a file that the scene names; fails if it cannot be read. */
+static char *path_of(const text_t *text, const char *what, const char *name)
+{
+    char *path = text_beside(text->path, name);
+    FILE *file = fopen(path, "rb");
+
+    if (file == NULL) {
+        cli_fail(CLI_IO, "%s:%u: cannot read the %s '%s'", text->path,
+                text->line, what, path);
+    }
+    fclose(file);
+    return path;
+}
+
+static void read_mesh(text_t *text, world_t *world)
+{
+    const char *name = text_rest(text);
+    char *path;
+
+    if (name == NULL) {
+        text_fail(text, "expected mesh FILE.obj");
+    }
+    path = path_of(text, "mesh", name);
+    read_obj(world, path);
+    free(path);
+}
+
+static void read_table_file(text_t *text, world_t *world)
+{
+    const char *name = text_rest(text);
+    char *path;
+
+    if (name == NULL) {
+        text_fail(text, "expected table FILE");
+    }
+    path = path_of(text, "table", name);
+    read_table(world, path);
+    free(path);
+}
+
+static void read_lens(text_t *text, world_t *world)
+{
+    static const char *const names[] = {"radius", "focus"};
+    double *const values[] = {&world->lens.radius, &world->lens.focus};
+    unsigned seen = 0;
+    const char *word;
+
+    while ((word = text_word(text)) != NULL) {
+        const unsigned i = strcmp(word, names[0]) == 0 ? 0 : 1;
+
+        if (strcmp(word, names[i]) != 0 || (seen & 1u << i) != 0) {
+            text_fail(text, "expected each of radius, focus once, found '%s'",
+                    word);
+        }
+        seen |= 1u << i;
+        *values[i] = text_number(text, "a length");
+    }
+    if (seen != 3) {
+        text_fail(text, "expected lens radius R focus DISTANCE");
+    }
+    if (!(world->lens.radius >= 0 && world->lens.focus > 0)) {
+        text_fail(text, "expected a radius of 0 or more and a focus above 0");
+    }
+    world->lens_line = text->line;
+}
+
+/* X Y Z radius R material NAME; the name may hold blanks. */
+static void read_sphere(text_t *text, world_t *world)
+{
+    static const char form[] = "sphere X Y Z radius R material NAME";
+    world_sphere_t *sphere = world_add_sphere(world);
+    const char *word;
+
+    read_vector(text, "three coordinates", sphere->centre);
+    word = text_word(text);
+    if (word == NULL || strcmp(word, "radius") != 0) {
+        text_fail(text, "expected %s", form);
+    }
+    sphere->radius = text_number(text, "the radius");
+    if (!(sphere->radius > 0)) {
+        text_fail(text, "expected a radius above 0");
+    }
+    word = text_word(text);
+    if (word == NULL || strcmp(word, "material") != 0 ||
+            (word = text_rest(text)) == NULL) {
+        text_fail(text, "expected %s", form);
+    }
+    sphere->name = alloc_text(word, strlen(word));
+    sphere->line = text->line;
+}
+
+static void read_colour(text_t *text, world_sky_t *sky)
+{
+    read_vector(text, "a radiance, red, green and blue,", sky->colour);
+    for (int k = 0; k < 3; k++) {
+        if (!(sky->colour[k] >= 0 && sky->colour[k] <= SKY_RADIANCE_MAX)) {
+            text_fail(text, "expected a radiance from 0 to %g, found %g",
+                    SKY_RADIANCE_MAX, sky->colour[k]);
+        }
+    }
+}
+
+static void read_map(text_t *text, world_sky_t *sky)
+{
+    char *path = path_of(text, "sky", text_word(text));
+    const char *word = text_word(text);
+
+    if (word != NULL) {
+        if (strcmp(word, "rotate") != 0) {
+            text_fail(text,
+                    "expected sky FILE.pfm [rotate DEGREES], found "
+                    "'%s'",
+                    word);
+        }
+        sky->rotate = text_number(text, "degrees");
+        if (!(sky->rotate >= -ROTATE_MAX && sky->rotate <= ROTATE_MAX)) {
+            text_fail(text, "expected %g degrees at most", ROTATE_MAX);
+        }
+    }
+    read_sky(sky, path);
+    free(path);
+}
+
+static void read_sky_line(text_t *text, world_t *world)
+{
+    const size_t word = strcspn(text->rest, " \t\v\f");
+
+    if (word == 0) {
+        text_fail(text, "expected sky RED GREEN BLUE or sky FILE.pfm");
+    }
+    if (strspn(text->rest, "0123456789+-.eE") == word) {
+        read_colour(text, &world->sky);
+    } else {
+        read_map(text, &world->sky);
+    }
+}
+
+static void read_key(text_t *text, world_t *world, int key)
+{
+    switch (key) {
+    case MESH:
+        read_mesh(text, world);
+        break;
+    case CAMERA:
+        world->camera_line = text->line;
+        read_camera(text, &world->camera);
+        break;
+    case IMAGE:
+        world->width = text_integer(text, "the width", 1, QL_IMAGE_MAX);
+        world->height = text_integer(text, "the height", 1, QL_IMAGE_MAX);
+        break;
+    case EXPOSURE:
+        read_exposure(text, world);
+        break;
+    case LIGHTS:
+        read_lights(text, world);
+        break;
+    case LENS:
+        read_lens(text, world);
+        break;
+    case SKY:
+        read_sky_line(text, world);
+        break;
+    case SPHERE:
+        read_sphere(text, world);
+        break;
+    default:
+        read_table_file(text, world);
+    }
+    text_finish(text);
+}
+
+/* Materials may be defined after the spheres made of them. The last definition
+ * of a name counts. */
+static void resolve_spheres(world_t *world, text_t *text)
+{
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        world_sphere_t *sphere = world->spheres + i;
+        size_t m = world->material_count;
+
+        while (m > 0 && !(world->materials[m - 1].defined &&
+                                strcmp(world->materials[m - 1].name,
+                                        sphere->name) == 0)) {
+            m--;
+        }
+        if (m == 0) {
+            text->line = sphere->line;
+            text_fail(text,
+                    "expected a material that a mesh's mtllib defines, found "
+                    "'%s'",
+                    sphere->name);
+        }
+        sphere->material = (uint32_t)(m - 1);
+    }
+}
+
+void read_scene(world_t *world, text_t *text)
+{
+    unsigned seen = 0;
+
+    memset(world, 0, sizeof *world);
+    world->path = text->path;
+    world->width = world->height = 256;
+    while (text_line(text)) {
+        const char *word = text_word(text);
+        int key = 0;
+
+        while (key < KEY_COUNT && strcmp(word, key_names[key]) != 0) {
+            key++;
+        }
+        if (key == KEY_COUNT) {
+            text_fail(text,
+                    "expected mesh, camera, lens, image, sky, sphere, lights, "
+                    "exposure or table, found '%s'",
+                    word);
+        }
+        if (key != MESH && key != SPHERE && key != TABLE &&
+                (seen & 1u << key) != 0) {
+            text_fail(
+                    text, "expected one '%s' in a scene, found a second", word);
+        }
+        seen |= 1u << key;
+        read_key(text, world, key);
+    }
+    if ((seen & 1u << CAMERA) == 0) {
+        text_fail(text, "expected a 'camera' line before the end of the file");
+    }
+    if ((seen & 1u << MESH) == 0) {
+        text_fail(text, "expected a 'mesh' line before the end of the file");
+    }
+    resolve_spheres(world, text);
+}
