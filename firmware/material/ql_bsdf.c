@@ -162,11 +162,11 @@ static bool uniform_direction(const ql_surface_t *surface, ql_uniform2_t u,
 
 /* Draw a direction by a density that knows of no lobe but the diffuse one.
  * *factor is cos/pi over the density. */
-static bool draw_direction(const ql_surface_t *surface, ql_indirect_t density,
+static bool draw_direction(const ql_surface_t *surface, ql_density_t density,
         ql_uniform2_t u, ql_bsdf_sample_t *sample, ql_real_t *factor, bool pdf)
 {
 #if QL_CFG_STRATEGIES
-    if (density == QL_INDIRECT_UNIFORM) {
+    if (density == QL_DENSITY_UNIFORM) {
         return uniform_direction(surface, u, sample, factor);
     }
 #else
@@ -177,7 +177,7 @@ static bool draw_direction(const ql_surface_t *surface, ql_indirect_t density,
 }
 
 /* The diffuse lobe alone. */
-static bool sample_diffuse(const ql_bsdf_t *bsdf, ql_indirect_t density,
+static bool sample_diffuse(const ql_bsdf_t *bsdf, ql_density_t density,
         ql_uniform2_t u, ql_bsdf_sample_t *sample, bool pdf)
 {
     ql_real_t factor;
@@ -186,7 +186,7 @@ static bool sample_diffuse(const ql_bsdf_t *bsdf, ql_indirect_t density,
             !draw_direction(bsdf->surface, density, u, sample, &factor, pdf)) {
         return false;
     }
-    if (QL_CFG_STRATEGIES && density == QL_INDIRECT_UNIFORM) {
+    if (QL_CFG_STRATEGIES && density == QL_DENSITY_UNIFORM) {
         ql_rgb_scale(&sample->weight, factor);
     }
     return true;
@@ -370,7 +370,7 @@ static bool sample_lobe(const ql_bsdf_t *bsdf, ql_uniform2_t u,
 }
 
 /* Both lobes by a direction whose density knows of neither. */
-static bool sample_both(const ql_bsdf_t *bsdf, ql_indirect_t density,
+static bool sample_both(const ql_bsdf_t *bsdf, ql_density_t density,
         ql_uniform2_t u, ql_bsdf_sample_t *sample)
 {
     static const ql_real_t pi = {0xc90fdaa2u, -30};
@@ -520,7 +520,7 @@ static bool sample_mirror(
 }
 #endif
 
-static bool sample_gloss(const ql_bsdf_t *bsdf, ql_indirect_t density,
+static bool sample_gloss(const ql_bsdf_t *bsdf, ql_density_t density,
         bool delta, ql_uq32_t pick, ql_uniform2_t u, ql_bsdf_sample_t *sample,
         bool pdf)
 {
@@ -542,7 +542,7 @@ static bool sample_gloss(const ql_bsdf_t *bsdf, ql_indirect_t density,
         return false;
     }
 #if QL_CFG_PHONG
-    if (kind == QL_GLOSS_PHONG && density != QL_INDIRECT_BRDF) {
+    if (kind == QL_GLOSS_PHONG && density != QL_DENSITY_BRDF) {
         return sample_both(bsdf, density, u, sample);
     }
     if (kind == QL_GLOSS_PHONG && special) {
@@ -589,7 +589,7 @@ void ql_bsdf_begin(ql_bsdf_t *bsdf, const ql_scene_t *scene,
 #endif
 }
 
-bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_indirect_t density, bool delta,
+bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, bool delta,
         ql_uq32_t pick, ql_uniform2_t u, ql_bsdf_sample_t *sample, bool pdf)
 {
     sample->delta = false;

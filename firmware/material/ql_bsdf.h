@@ -11,7 +11,7 @@
 #ifndef QL_BSDF_H
 #define QL_BSDF_H
 
-#include "base/ql_settings.h"
+#include "base/ql_density.h"
 #include "math/ql_rgb.h"
 #include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"
@@ -108,7 +108,7 @@ ql_vec3_t ql_bsdf_diffuse(const ql_surface_t *surface, ql_uniform2_t u);
 /* Draw a direction.
  *
  *   bsdf     -     from ql_bsdf_begin()
- *   density  -     QL_INDIRECT_UNIFORM, _COSINE or _BRDF, of what is not a
+ *   density  -     QL_DENSITY_UNIFORM, _COSINE or _BRDF, of what is not a
  *                  delta lobe; UNIFORM needs QL_CFG_STRATEGIES
  *   delta    -     true: the delta lobe alone, with all its weight
  *   pick     uq32  chooses the lobe, of glass whether it reflects
@@ -138,7 +138,7 @@ ql_vec3_t ql_bsdf_diffuse(const ql_surface_t *surface, ql_uniform2_t u);
  * From:  Lafortune and Willems, "Using the Modified Phong Reflectance Model for
  *        Physically Based Rendering", 1994; the equations of Snell and Fresnel.
  */
-bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_indirect_t density, bool delta,
+bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, bool delta,
         ql_uq32_t pick, ql_uniform2_t u, ql_bsdf_sample_t *sample, bool pdf);
 
 /* Reflect light that comes from a known direction, all but delta lobes.

@@ -13,22 +13,22 @@
 #include "trace/ql_surface.h"
 
 /* Density by which a strategy looks for emitters; NONE if it does not. */
-static ql_indirect_t looks_by(const ql_settings_t *s)
+static ql_density_t looks_by(const ql_settings_t *s)
 {
 #if QL_CFG_STRATEGIES
     switch (s->direct) {
     case QL_DIRECT_HEMISPHERE:
-        return QL_INDIRECT_UNIFORM;
+        return QL_DENSITY_UNIFORM;
     case QL_DIRECT_COSINE:
-        return QL_INDIRECT_COSINE;
+        return QL_DENSITY_COSINE;
     case QL_DIRECT_MIS:
-        return QL_INDIRECT_BRDF;
+        return QL_DENSITY_BRDF;
     default:
-        return QL_INDIRECT_NONE;
+        return QL_DENSITY_NONE;
     }
 #else
     (void)s;
-    return QL_INDIRECT_NONE;
+    return QL_DENSITY_NONE;
 #endif
 }
 
@@ -47,15 +47,14 @@ static bool aims(const ql_path_t *path)
 
 #if QL_CFG_STRATEGIES
 /* Are two densities one on this surface? */
-static bool same_density(
-        const ql_bsdf_t *bsdf, ql_indirect_t a, ql_indirect_t b)
+static bool same_density(const ql_bsdf_t *bsdf, ql_density_t a, ql_density_t b)
 {
     if (!ql_bsdf_has_spread(bsdf)) {
         return true;
     }
     if (bsdf->gloss == NULL) {
-        a = a == QL_INDIRECT_BRDF ? QL_INDIRECT_COSINE : a;
-        b = b == QL_INDIRECT_BRDF ? QL_INDIRECT_COSINE : b;
+        a = a == QL_DENSITY_BRDF ? QL_DENSITY_COSINE : a;
+        b = b == QL_DENSITY_BRDF ? QL_DENSITY_COSINE : b;
     }
     return a == b;
 }
@@ -81,10 +80,10 @@ typedef struct {
 
 /* Draw a way from a vertex, by some density or along the delta lobe only; false
  * if the light is lost. look is 0, or 1 for the numbers of a second way. */
-static bool draw(const ql_path_t *path, const vertex_t *v,
-        ql_indirect_t density, bool delta, uint32_t look, way_t *way)
+static bool draw(const ql_path_t *path, const vertex_t *v, ql_density_t density,
+        bool delta, uint32_t look, way_t *way)
 {
-    const bool shares = QL_CFG_STRATEGIES && density == QL_INDIRECT_BRDF &&
+    const bool shares = QL_CFG_STRATEGIES && density == QL_DENSITY_BRDF &&
                         path->settings->direct == QL_DIRECT_MIS;
     const ql_uniform2_t u = ql_sampler_2d(
             path->sampler, v->dim + (look ? QL_DIM_LOOK : QL_DIM_DIRECTION));
@@ -93,7 +92,7 @@ static bool draw(const ql_path_t *path, const vertex_t *v,
     ql_bsdf_sample_t sample;
 
     if (ql_bsdf_is_plain(&v->bsdf) && !shares &&
-            (!QL_CFG_STRATEGIES || density != QL_INDIRECT_UNIFORM)) {
+            (!QL_CFG_STRATEGIES || density != QL_DENSITY_UNIFORM)) {
         way->ray.origin = v->surface.p;
         way->ray.direction = ql_bsdf_diffuse(&v->surface, u);
         way->carried = v->reflected;
@@ -116,7 +115,7 @@ static bool draw(const ql_path_t *path, const vertex_t *v,
 #endif
     way->ray.direction = sample.direction;
     if (v->bsdf.gloss == NULL &&
-            (!QL_CFG_STRATEGIES || density != QL_INDIRECT_UNIFORM)) {
+            (!QL_CFG_STRATEGIES || density != QL_DENSITY_UNIFORM)) {
         way->carried = v->reflected; /* the weight is the albedo */
     } else {
         way->carried = *v->carried;
@@ -151,7 +150,7 @@ static bool follow(const ql_path_t *path, const way_t *way, ql_hit_t *hit)
 #if QL_CFG_STRATEGIES
 /* A second way, only to look for emitters. */
 static QL_NOINLINE void look_around(
-        const ql_path_t *path, const vertex_t *v, ql_indirect_t density)
+        const ql_path_t *path, const vertex_t *v, ql_density_t density)
 {
     way_t way;
     ql_hit_t hit;
@@ -204,33 +203,33 @@ static bool go_on(
         const ql_path_t *path, const vertex_t *v, state_t *state, way_t *way)
 {
     const ql_settings_t *s = path->settings;
-    const ql_indirect_t look = looks_by(s);
-    ql_indirect_t density = QL_CFG_INDIRECT && state->bounce < s->bounces
-                                    ? (ql_indirect_t)s->indirect
-                                    : QL_INDIRECT_NONE;
+    const ql_density_t look = looks_by(s);
+    ql_density_t density = QL_CFG_INDIRECT && state->bounce < s->bounces
+                                   ? (ql_density_t)s->indirect
+                                   : QL_DENSITY_NONE;
     const bool mirror = ql_bsdf_has_delta(&v->bsdf) &&
                         (s->direct != QL_DIRECT_NONE || state->seen);
     bool apart = false;
 
-    if (density == QL_INDIRECT_NONE) {
+    if (density == QL_DENSITY_NONE) {
         const bool spread =
-                look != QL_INDIRECT_NONE && ql_bsdf_has_spread(&v->bsdf);
+                look != QL_DENSITY_NONE && ql_bsdf_has_spread(&v->bsdf);
 
         state->last = true;
         return (spread || mirror) && draw(path, v, look, !spread, 0, way);
     }
 #if QL_CFG_STRATEGIES
-    apart = look != QL_INDIRECT_NONE && !same_density(&v->bsdf, look, density);
+    apart = look != QL_DENSITY_NONE && !same_density(&v->bsdf, look, density);
     if (apart) {
         look_around(path, v, look);
-    } else if (look != QL_INDIRECT_NONE) {
+    } else if (look != QL_DENSITY_NONE) {
         density = look;
     }
 #endif
     if (!draw(path, v, density, false, 0, way)) {
         return false;
     }
-    if (apart || (way->delta ? !mirror : look == QL_INDIRECT_NONE)) {
+    if (apart || (way->delta ? !mirror : look == QL_DENSITY_NONE)) {
         way->sight.kind = QL_SIGHT_NONE;
     }
     state->seen = state->seen && way->delta;

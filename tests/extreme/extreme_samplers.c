@@ -431,7 +431,7 @@ static lobe_t draw_lobe(void)
         double weight = 0;
 
         if (ql_bsdf_sample(
-                    &bsdf, QL_INDIRECT_BRDF, false, 0, u, &sample, false)) {
+                    &bsdf, QL_DENSITY_BRDF, false, 0, u, &sample, false)) {
             CHECK(ql_vec_dot(sample.direction, surface.n) > 0,
                     "a direction below the surface");
             weight = ldexp(sample.weight.c[0], sample.weight.e - 31);

@@ -247,7 +247,7 @@ static estimate_t estimate(value_t value, uint32_t count)
  * lengths, and of how far rounding moved the direction it is seen from. */
 #define WITHIN(e) (4 * (e).error + DRAWN_ERROR + 2 * ROUNDED)
 
-static ql_indirect_t density;
+static ql_density_t density;
 static unsigned colour; /* channel looked at */
 
 /* Weight of that channel, 0 if lost. */
@@ -316,8 +316,8 @@ TEST(diffuse_directions_and_weights_are_the_old_bits)
         set_normal(random_normal());
         see(true, vec(1, 2, 3));
         drawn = ql_bsdf_sample(&bsdf,
-                k & 1 ? QL_INDIRECT_COSINE : QL_INDIRECT_BRDF, false,
-                (uint32_t)k, u, &sample, false);
+                k & 1 ? QL_DENSITY_COSINE : QL_DENSITY_BRDF, false, (uint32_t)k,
+                u, &sample, false);
         CHECK(drawn && same(sample.direction, cosine_direction(u)) &&
                         !sample.delta && !sample.through,
                 "n = %ld %ld %ld, u = %08lx %08lx", (long)surface.n.x,
@@ -330,7 +330,7 @@ TEST(diffuse_directions_and_weights_are_the_old_bits)
                     sample.weight.e);
         }
         CHECK(!ql_bsdf_sample(
-                      &bsdf, QL_INDIRECT_BRDF, true, 0, u, &sample, false),
+                      &bsdf, QL_DENSITY_BRDF, true, 0, u, &sample, false),
                 "drew a lobe that is not there");
     }
 }
@@ -352,7 +352,7 @@ TEST(diffuse_directions_have_the_albedo_and_a_mean_cosine_of_2_3)
 
     set_albedo(0.6, 0, 0);
     see_at(30);
-    density = QL_INDIRECT_BRDF;
+    density = QL_DENSITY_BRDF;
     weight = estimate(drawn_weight, 64);
     cosine = estimate(drawn_cosine, 256);
     CHECK(fabs(weight.mean - 0.6) < 1e-9 &&
@@ -368,7 +368,7 @@ TEST(black_surfaces_lose_all_light)
 
     set_albedo(0, 0, 0);
     see_at(30);
-    CHECK(!ql_bsdf_sample(&bsdf, QL_INDIRECT_BRDF, false, 0, u, &sample, false),
+    CHECK(!ql_bsdf_sample(&bsdf, QL_DENSITY_BRDF, false, 0, u, &sample, false),
             "reflects");
 }
 
@@ -419,7 +419,7 @@ TEST(uniform_directions_have_the_mean_of_the_cosine)
 
     set_albedo(0.6, 0, 0);
     see_at(30);
-    density = QL_INDIRECT_UNIFORM;
+    density = QL_DENSITY_UNIFORM;
     e = estimate(drawn_weight, 256);
     CHECK(fabs(e.mean - 0.6) <= WITHIN(e) && e.most <= 1.2 + 1e-6,
             "%.6f +- %.6f, most %.9f", e.mean, e.error, e.most);
@@ -447,7 +447,7 @@ TEST(diffuse_density_is_the_cosine_over_pi)
         set_normal(random_normal());
         see(true, vec(0, 0, 1));
         CHECK(ql_bsdf_sample(
-                      &bsdf, QL_INDIRECT_BRDF, false, 0, u, &sample, true) &&
+                      &bsdf, QL_DENSITY_BRDF, false, 0, u, &sample, true) &&
                         sample.pdf.m != 0,
                 "k = %ld", k);
         cosine = cosine_to_normal(sample.direction);
@@ -486,13 +486,13 @@ TEST(smooth_surfaces_lose_what_is_below_the_plane)
         set_normal(tilted);
         set_shade(degrees);
         see(true, incoming_at(normal(), 0.3, 0));
-        density = QL_INDIRECT_COSINE;
+        density = QL_DENSITY_COSINE;
         e = estimate(drawn_weight, 256);
         CHECK(fabs(e.mean - 0.8 * above) <= WITHIN(e) && e.most <= 0.8000001,
                 "%d degrees: %.6f +- %.6f, not %.6f", degrees, e.mean, e.error,
                 0.8 * above);
 #if QL_CFG_STRATEGIES
-        density = QL_INDIRECT_UNIFORM;
+        density = QL_DENSITY_UNIFORM;
         e = estimate(drawn_weight, 256);
         CHECK(fabs(e.mean - 0.8 * above) <= WITHIN(e),
                 "uniform, %d degrees: %.6f +- %.6f, not %.6f", degrees, e.mean,
@@ -570,7 +570,7 @@ TEST(phong_lobes_have_the_albedos_of_the_table)
 {
     double worst = 0;
 
-    density = QL_INDIRECT_BRDF;
+    density = QL_DENSITY_BRDF;
     for (int i = 0; i < EXPONENTS; i++) {
         for (int k = 0; k < VIEWS; k++) {
             const double n = exponents[i], exact = albedos[i][k];
@@ -595,7 +595,7 @@ TEST(phong_lobes_have_the_albedos_of_the_table)
  * (1 + cos)/2. */
 TEST(phong_lobes_are_cut_at_the_horizon)
 {
-    density = QL_INDIRECT_BRDF;
+    density = QL_DENSITY_BRDF;
     for (int k = 0; k < VIEWS; k++) {
         estimate_t e;
 
@@ -617,7 +617,7 @@ TEST(phong_lobes_of_exponent_n_plus_1_are_rejected)
 {
     const uint32_t count = QL_CFG_SAMPLERS & 2 ? 1024 : 16384; /* no Sobol */
 
-    density = QL_INDIRECT_BRDF;
+    density = QL_DENSITY_BRDF;
     for (int i = 0; i < 3; i++) {
         estimate_t e;
 
@@ -631,7 +631,7 @@ TEST(phong_lobes_of_exponent_n_plus_1_are_rejected)
 
 TEST(phong_weights_without_the_cosine_are_rejected)
 {
-    density = QL_INDIRECT_BRDF;
+    density = QL_DENSITY_BRDF;
     for (int i = 0; i < EXPONENTS; i++) {
         estimate_t e;
 
@@ -667,12 +667,12 @@ TEST(every_density_has_the_same_mean)
                         : mix == 1 ? 0.4
                                    : 0.2);
                 see_at(views[k]);
-                density = QL_INDIRECT_BRDF;
+                density = QL_DENSITY_BRDF;
                 check_density(i, k, kd, ks);
-                density = QL_INDIRECT_COSINE;
+                density = QL_DENSITY_COSINE;
                 check_density(i, k, kd, ks);
 #if QL_CFG_STRATEGIES
-                density = QL_INDIRECT_UNIFORM;
+                density = QL_DENSITY_UNIFORM;
                 check_density(i, k, kd, ks);
 #endif
             }
@@ -691,9 +691,9 @@ TEST(colours_of_both_lobes_keep_apart)
     }
     see_at(60);
     for (colour = 0; colour < 3; colour++) {
-        density = QL_INDIRECT_BRDF;
+        density = QL_DENSITY_BRDF;
         check_density(3, 3, kd[colour], ks[colour]);
-        density = QL_INDIRECT_COSINE;
+        density = QL_DENSITY_COSINE;
         check_density(3, 3, kd[colour], ks[colour]);
     }
     colour = 0;
@@ -710,14 +710,14 @@ TEST(lobes_of_no_chance_are_never_drawn)
 
         set_phong(0.5, 0.5, 20, 0);
         see_at(45);
-        CHECK(ql_bsdf_sample(&bsdf, QL_INDIRECT_BRDF, false, pick, u, &sample,
-                      false) &&
+        CHECK(ql_bsdf_sample(
+                      &bsdf, QL_DENSITY_BRDF, false, pick, u, &sample, false) &&
                         channel(&sample.weight, 0) == 0.5,
                 "chance 0: weight %.9f", channel(&sample.weight, 0));
         set_phong(0.5, 0.5, 20, 1);
         see_at(45);
         if (ql_bsdf_sample(
-                    &bsdf, QL_INDIRECT_BRDF, false, pick, u, &sample, false)) {
+                    &bsdf, QL_DENSITY_BRDF, false, pick, u, &sample, false)) {
             CHECK(channel(&sample.weight, 0) <= 0.5 * 22 / 21 * (1 + 0x1p-29),
                     "chance 1: weight %.9f", channel(&sample.weight, 0));
         }
@@ -751,7 +751,7 @@ static double chi2_p(double n)
         double at, turn;
 
         if (!ql_bsdf_sample(
-                    &bsdf, QL_INDIRECT_BRDF, false, 0, u, &sample, false)) {
+                    &bsdf, QL_DENSITY_BRDF, false, 0, u, &sample, false)) {
             return 0;
         }
         w = unit(from_vec(sample.direction));
@@ -811,7 +811,7 @@ TEST(densities_are_those_of_the_lobe_drawn)
         double got, exact, cosine, error;
 
         see(true, incoming);
-        if (!ql_bsdf_sample(&bsdf, QL_INDIRECT_BRDF, false,
+        if (!ql_bsdf_sample(&bsdf, QL_DENSITY_BRDF, false,
                     special ? 0 : 0xffffffffu, u, &sample, true)) {
             continue;
         }
@@ -913,7 +913,7 @@ static double by_brdf(draw_t draw)
 {
     ql_bsdf_sample_t sample;
 
-    return ql_bsdf_sample(&bsdf, QL_INDIRECT_BRDF, false, draw.pick, draw.u,
+    return ql_bsdf_sample(&bsdf, QL_DENSITY_BRDF, false, draw.pick, draw.u,
                    &sample, true) &&
                            in_cap(sample.direction)
                    ? channel(&sample.weight, 0)
@@ -929,7 +929,7 @@ static double by_both(draw_t draw)
     ql_bsdf_sample_t sample;
     double value = reflected(draw, true);
 
-    if (ql_bsdf_sample(&bsdf, QL_INDIRECT_BRDF, false, draw.pick, draw.u,
+    if (ql_bsdf_sample(&bsdf, QL_DENSITY_BRDF, false, draw.pick, draw.u,
                 &sample, true) &&
             in_cap(sample.direction)) {
         const double p = real(sample.pdf) * density_scale;
@@ -1013,7 +1013,7 @@ TEST(mirrors_reflect_at_equal_angles)
         incoming = random_incoming();
         in = unit(from_vec(incoming));
         see(true, incoming);
-        CHECK(ql_bsdf_sample(&bsdf, QL_INDIRECT_UNIFORM, k & 1, (uint32_t)k, u,
+        CHECK(ql_bsdf_sample(&bsdf, QL_DENSITY_UNIFORM, k & 1, (uint32_t)k, u,
                       &sample, true) &&
                         sample.delta && !sample.through,
                 "lost");
@@ -1029,8 +1029,8 @@ TEST(mirrors_reflect_at_equal_angles)
 /* Both lobes, each divided by its chance; the delta lobe alone is not. */
 TEST(mixed_mirrors_draw_each_lobe_with_its_chance)
 {
-    static const ql_indirect_t all[] = {
-            QL_INDIRECT_BRDF, QL_INDIRECT_COSINE, QL_INDIRECT_UNIFORM};
+    static const ql_density_t all[] = {
+            QL_DENSITY_BRDF, QL_DENSITY_COSINE, QL_DENSITY_UNIFORM};
 
     set_albedo(0.5, 0.5, 0.5);
     set_gloss(QL_GLOSS_MIRROR, 0.25, 0, 0.25);
@@ -1083,7 +1083,7 @@ TEST(smooth_mirrors_have_no_black_rim)
         incoming = random_incoming();
         see(true, incoming);
         CHECK(ql_bsdf_sample(
-                      &bsdf, QL_INDIRECT_BRDF, false, 0, u, &sample, false),
+                      &bsdf, QL_DENSITY_BRDF, false, 0, u, &sample, false),
                 "lost");
         check_sample(&sample, 1, false);
         in = unit(from_vec(incoming));
@@ -1129,8 +1129,7 @@ static bool draw_glass(ql_uq32_t pick, ql_bsdf_sample_t *sample)
 {
     const ql_uniform2_t u = {0, 0};
 
-    return ql_bsdf_sample(
-            &bsdf, QL_INDIRECT_BRDF, false, pick, u, sample, true);
+    return ql_bsdf_sample(&bsdf, QL_DENSITY_BRDF, false, pick, u, sample, true);
 }
 
 /* How many of 2^32 picks reflect: they are the smallest. */
@@ -1383,7 +1382,7 @@ static void check_grazing(long *reflected_count, long *through)
             continue;
         }
         see(k & 1, incoming);
-        CHECK(ql_bsdf_sample(&bsdf, QL_INDIRECT_BRDF, true,
+        CHECK(ql_bsdf_sample(&bsdf, QL_DENSITY_BRDF, true,
                       k & 2 ? 0xffffffffu : 0, u, &sample, true),
                 "lost");
         check_sample(&sample, 1e6, true);
@@ -1444,17 +1443,16 @@ static unsigned long extremes(double most)
             for (int i = 0; i < CORNERS * CORNERS * CORNERS; i++) {
                 const ql_uniform2_t u = {
                         corners[i % CORNERS], corners[i / CORNERS % CORNERS]};
-                const ql_indirect_t which = i % 3 == 0   ? QL_INDIRECT_BRDF
-                                            : i % 3 == 1 ? QL_INDIRECT_COSINE
-                                                         : QL_INDIRECT_UNIFORM;
+                const ql_density_t which = i % 3 == 0   ? QL_DENSITY_BRDF
+                                           : i % 3 == 1 ? QL_DENSITY_COSINE
+                                                        : QL_DENSITY_UNIFORM;
                 ql_bsdf_sample_t sample;
 
                 if (ql_bsdf_sample(&bsdf, which, (i & 8) != 0,
                             corners[i / (CORNERS * CORNERS)], u, &sample,
                             i & 16)) {
-                    check_sample(&sample,
-                            which == QL_INDIRECT_BRDF ? most : 1e6,
-                            QL_CFG_STRATEGIES && which == QL_INDIRECT_BRDF &&
+                    check_sample(&sample, which == QL_DENSITY_BRDF ? most : 1e6,
+                            QL_CFG_STRATEGIES && which == QL_DENSITY_BRDF &&
                                     (i & 16));
                     count++;
                 }
