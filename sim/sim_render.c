@@ -3,161 +3,84 @@
 
 #include "sim/sim_render.h"
 
-#include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* Samples between two looks at the clock and at Ctrl-C: some milliseconds. */
-#define STEP_SAMPLES 4096u
+#include "lib/render/rows.h"
 
-/* What the threads share. Rows are handed out one by one; each pixel is written
- * by the one thread that has its row, so only the rest needs the lock. */
+/* What the threads share. */
 typedef struct {
-    pthread_mutex_t lock;
-    ql_sum_t *pixels;
-    uint32_t *counts; /* NULL: each pixel takes every sample of the range */
-    const ql_render_t *render;
-    sums_range_t range;
-    uint32_t next_row;
-    uint64_t done; /* samples, or what an early end made unnecessary */
-    uint64_t total;
-    bool quiet;
+    sums_t *sums;
     sim_stats_t stats;
 } job_t;
 
-/* The next row, or row_end if there is none. */
-static uint32_t take_row(job_t *job)
+static ql_sum_t *pixel_of(const job_t *job, uint16_t x, uint16_t y)
 {
-    uint32_t row;
-
-    pthread_mutex_lock(&job->lock);
-    row = job->next_row;
-    if (row < job->range.row_end && !cli_interrupted()) {
-        job->next_row++;
-    } else {
-        row = job->range.row_end;
-    }
-    pthread_mutex_unlock(&job->lock);
-    return row;
+    return job->sums->pixels + (size_t)job->sums->field[SUMS_WIDTH] * y + x;
 }
 
-/* Hand in what a thread did. Its counters start again: 32 bits would wrap. */
-static void report(job_t *job, ql_diag_t *diag, uint32_t *samples)
+/* Sums are exact, so it changes no bit how many samples a call takes. */
+static void draw(void *shared, void *own, uint16_t x, uint16_t y,
+        uint32_t first, uint32_t count)
 {
-    pthread_mutex_lock(&job->lock);
-    job->stats.paths += diag->paths;
-    job->stats.closest_rays += diag->closest_rays;
-    job->stats.shadow_rays += diag->shadow_rays;
-    job->stats.saturated += diag->saturated;
-    job->stats.faint += diag->faint;
-    job->done += *samples;
-    cli_progress("rendering", job->done, job->total, job->quiet);
-    pthread_mutex_unlock(&job->lock);
+    ql_render_pixel(own, x, y, first, count, pixel_of(shared, x, y));
+}
+
+#if QL_CFG_ADAPTIVE
+/* A pixel that ends by itself; it counts as done entirely. */
+static void draw_adaptive(void *shared, void *own, uint16_t x, uint16_t y,
+        uint32_t first, uint32_t count)
+{
+    const job_t *job = shared;
+    ql_sum_t *sum = pixel_of(job, x, y);
+
+    (void)first;
+    (void)count;
+    job->sums->counts[sum - job->sums->pixels] =
+            ql_render_adaptive(own, x, y, sum);
+}
+#endif
+
+static void collect(void *shared, void *own)
+{
+    sim_stats_t *stats = &((job_t *)shared)->stats;
+    ql_diag_t *diag = &((ql_render_t *)own)->diag;
+
+    stats->paths += diag->paths;
+    stats->closest_rays += diag->closest_rays;
+    stats->shadow_rays += diag->shadow_rays;
+    stats->saturated += diag->saturated;
+    stats->faint += diag->faint;
     memset(diag, 0, sizeof *diag);
-    *samples = 0;
-}
-
-#if QL_CFG_ADAPTIVE
-/* A row whose pixels end by themselves; each counts as done entirely. */
-static void render_row_adaptive(job_t *job, ql_render_t *render, uint32_t y)
-{
-    const uint32_t width = render->settings.width;
-
-    for (uint32_t x = 0; x < width && !cli_interrupted(); x++) {
-        const size_t i = (size_t)width * y + x;
-        uint32_t spp = render->settings.spp;
-        job->counts[i] = ql_render_adaptive(
-                render, (uint16_t)x, (uint16_t)y, job->pixels + i);
-        report(job, &render->diag, &spp);
-    }
-}
-#endif
-
-/* A row, in steps short enough to stop soon. Sums are exact, so steps change
- * no bit. */
-static void render_row(job_t *job, ql_render_t *render, uint32_t y)
-{
-    const uint32_t width = render->settings.width;
-    uint32_t fresh = 0;
-
-    for (uint32_t x = 0; x < width; x++) {
-        ql_sum_t *sum = job->pixels + (size_t)width * y + x;
-        uint32_t at = job->range.sample_first;
-        while (at < job->range.sample_end && !cli_interrupted()) {
-            const uint32_t left = job->range.sample_end - at;
-            const uint32_t n = left < STEP_SAMPLES ? left : STEP_SAMPLES;
-            ql_render_pixel(render, (uint16_t)x, (uint16_t)y, at, n, sum);
-            at += n;
-            fresh += n;
-            if (fresh >= STEP_SAMPLES) {
-                report(job, &render->diag, &fresh);
-            }
-        }
-    }
-    report(job, &render->diag, &fresh);
-}
-
-static void *work(void *shared)
-{
-    job_t *job = shared;
-    ql_render_t render = *job->render; /* counters of its own */
-    uint32_t y;
-
-    while ((y = take_row(job)) < job->range.row_end) {
-#if QL_CFG_ADAPTIVE
-        if (job->counts != NULL) {
-            render_row_adaptive(job, &render, y);
-            continue;
-        }
-#endif
-        render_row(job, &render, y);
-    }
-    return NULL;
-}
-
-/* This thread and count - 1 others; fewer if the system has no more. */
-static void run_threads(job_t *job, unsigned count)
-{
-    pthread_t *threads = cli_alloc(count, sizeof *threads);
-    unsigned started = 0;
-
-    while (started + 1 < count &&
-            pthread_create(threads + started, NULL, work, job) == 0) {
-        started++;
-    }
-    work(job);
-    while (started > 0) {
-        pthread_join(threads[--started], NULL);
-    }
-    free(threads);
 }
 
 bool sim_render(sums_t *sums, const ql_render_t *render,
         const sums_range_t *range, unsigned threads, bool quiet,
         sim_stats_t *stats)
 {
-    const uint32_t rows = range->row_end - range->row_first;
     const double begun = cli_seconds();
-    job_t job;
+    job_t job = {.sums = sums};
+    rows_t rows = {.label = "rendering",
+            .width = render->settings.width,
+            .range = *range,
+            .step = ROWS_STEP,
+            .threads = threads,
+            .quiet = quiet,
+            .job = &job,
+            .own = render,
+            .own_bytes = sizeof *render,
+            .draw = draw,
+            .collect = collect};
+    bool done;
 
-    memset(&job, 0, sizeof job);
-    pthread_mutex_init(&job.lock, NULL);
 #if QL_CFG_ADAPTIVE
     if (render->settings.error_q16 != 0) {
         sums_own_counts(sums);
+        rows.draw = draw_adaptive;
+        rows.step = render->settings.spp;
     }
 #endif
-    job.pixels = sums->pixels;
-    job.counts = sums->counts;
-    job.render = render;
-    job.range = *range;
-    job.next_row = range->row_first;
-    job.total = (uint64_t)rows * render->settings.width *
-                (range->sample_end - range->sample_first);
-    job.quiet = quiet;
-    run_threads(&job, threads < rows ? threads : rows);
-    pthread_mutex_destroy(&job.lock);
+    done = rows_render(&rows);
     *stats = job.stats;
     stats->seconds = cli_seconds() - begun;
-    return job.done == job.total;
+    return done;
 }

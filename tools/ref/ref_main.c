@@ -3,15 +3,13 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "qlux.h"
 #include "ref/ref.h"
 #include "lib/render/render_options.h"
-
-#define STEP_SAMPLES 4096u /* between two looks at Ctrl-C */
+#include "lib/render/rows.h"
 
 static const char help[] =
         "qlux-ref: a scene in double precision, with the random numbers of\n"
@@ -35,14 +33,11 @@ static const char help[] =
         "  qlux-ref cornell.qlb -o b.pfm --spp 64\n"
         "  qlux-diff a.pfm b.pfm\n";
 
-/* What the threads share. Rows are handed out one by one. */
+/* What the threads share. */
 typedef struct {
-    pthread_mutex_t lock;
     const ref_scene_t *scene;
     const render_options_t *options;
     double *rgb; /* sums in radiance units */
-    uint32_t next_row;
-    uint64_t done, total; /* samples */
     ref_stats_t stats;
 } job_t;
 
@@ -116,88 +111,44 @@ static void *open_scene(ql_scene_t *scene, const char *path)
     return blob;
 }
 
-static uint32_t take_row(job_t *job)
+static void draw(void *shared, void *own, uint16_t x, uint16_t y,
+        uint32_t first, uint32_t count)
 {
-    const uint32_t end = job->options->rows.end;
-    uint32_t row;
+    const job_t *job = shared;
+    const ql_settings_t *settings = &job->options->settings;
 
-    pthread_mutex_lock(&job->lock);
-    row = cli_interrupted() ? end : job->next_row;
-    job->next_row += row < end;
-    pthread_mutex_unlock(&job->lock);
-    return row;
+    ref_pixel(job->scene, settings, x, y, first, count,
+            job->rgb + 3 * ((size_t)settings->width * y + x), own);
 }
 
-static void report(job_t *job, ref_stats_t *stats, uint64_t *samples)
+static void collect(void *shared, void *own)
 {
-    pthread_mutex_lock(&job->lock);
-    job->stats.paths += stats->paths;
-    job->stats.closest_rays += stats->closest_rays;
-    job->stats.shadow_rays += stats->shadow_rays;
-    job->done += *samples;
-    cli_progress("reference", job->done, job->total, job->options->quiet);
-    pthread_mutex_unlock(&job->lock);
-    memset(stats, 0, sizeof *stats);
-    *samples = 0;
+    ref_stats_t *to = &((job_t *)shared)->stats, *from = own;
+
+    to->paths += from->paths;
+    to->closest_rays += from->closest_rays;
+    to->shadow_rays += from->shadow_rays;
+    memset(from, 0, sizeof *from);
 }
 
-static void render_row(job_t *job, uint32_t y, ref_stats_t *stats)
-{
-    const render_options_t *o = job->options;
-    const uint32_t width = o->settings.width;
-    uint64_t fresh = 0;
-
-    for (uint32_t x = 0; x < width; x++) {
-        double *rgb = job->rgb + 3 * ((size_t)width * y + x);
-        uint32_t at = o->samples.first;
-
-        while (at < o->samples.end && !cli_interrupted()) {
-            const uint32_t left = o->samples.end - at;
-            const uint32_t n = left < STEP_SAMPLES ? left : STEP_SAMPLES;
-
-            ref_pixel(job->scene, &o->settings, (uint16_t)x, (uint16_t)y, at, n,
-                    rgb, stats);
-            at += n;
-            fresh += n;
-            if (fresh >= STEP_SAMPLES) {
-                report(job, stats, &fresh);
-            }
-        }
-    }
-    report(job, stats, &fresh);
-}
-
-static void *work(void *shared)
-{
-    job_t *job = shared;
-    ref_stats_t stats = {0, 0, 0};
-    uint32_t y;
-
-    while ((y = take_row(job)) < job->options->rows.end) {
-        render_row(job, y, &stats);
-    }
-    return NULL;
-}
-
-/* This thread and others; fewer if the system has no more. */
 static void render(job_t *job)
 {
-    const unsigned count = job->options->threads;
-    pthread_t *threads = cli_alloc(count, sizeof *threads);
-    unsigned started = 0;
+    const render_options_t *o = job->options;
+    const ref_stats_t none = {0, 0, 0};
+    const rows_t rows = {.label = "reference",
+            .width = o->settings.width,
+            .range = {o->rows.first, o->rows.end, o->samples.first,
+                    o->samples.end},
+            .step = ROWS_STEP,
+            .threads = o->threads,
+            .quiet = o->quiet,
+            .job = job,
+            .own = &none,
+            .own_bytes = sizeof none,
+            .draw = draw,
+            .collect = collect};
 
-    pthread_mutex_init(&job->lock, NULL);
-    while (started + 1 < count &&
-            pthread_create(threads + started, NULL, work, job) == 0) {
-        started++;
-    }
-    work(job);
-    while (started > 0) {
-        pthread_join(threads[--started], NULL);
-    }
-    pthread_mutex_destroy(&job->lock);
-    free(threads);
-    if (job->done != job->total) {
+    if (!rows_render(&rows)) {
         cli_fail(CLI_IO, "interrupted; nothing was written");
     }
 }
@@ -291,10 +242,6 @@ int main(int argc, char **argv)
     memset(&job, 0, sizeof job);
     job.scene = &scene;
     job.options = &options;
-    job.next_row = options.rows.first;
-    job.total = (uint64_t)(options.rows.end - options.rows.first) *
-                options.settings.width *
-                (options.samples.end - options.samples.first);
     job.rgb =
             cli_alloc((size_t)options.settings.width * options.settings.height,
                     3 * sizeof *job.rgb);
