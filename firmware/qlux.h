@@ -27,8 +27,8 @@
 #ifndef QLUX_H
 #define QLUX_H
 
+#include "blob/ql_blob_open.h"
 #include "render/ql_line.h"
-#include "scene/ql_blob.h"
 
 #define QLUX_VERSION "0.1.0"
 

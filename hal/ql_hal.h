@@ -9,7 +9,7 @@
 #define QL_HAL_H
 
 #include "base/ql_base.h"
-#include "render/ql_tonemap.h"
+#include "base/ql_format.h"
 
 /* What the board's panel shows. width 0 means there is no panel. */
 typedef struct {

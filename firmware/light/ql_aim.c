@@ -10,7 +10,7 @@
 #include "light/ql_light.h"
 #include "light/ql_sky.h"
 #include "trace/ql_sphere.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 #define PI_M 0xc90fdaa2u /* pi 2^30 */
 

@@ -22,7 +22,7 @@
 #include "sample/ql_sampler.h"
 #include "light/ql_light.h"
 #include "scene/ql_ray.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 /* A direction towards an emitter. */
 typedef struct {

@@ -16,6 +16,7 @@
 #include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
+#include "scene/ql_surface.h"
 
 /* A surface ready to be asked. */
 typedef struct {

@@ -16,6 +16,7 @@
 #include "material/ql_bsdf.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
+#include "scene/ql_surface.h"
 
 /* What every part of one camera path needs. */
 typedef struct {

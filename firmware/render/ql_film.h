@@ -1,9 +1,10 @@
-/* ql_film.h - exact sums of samples, their mean, and counters */
+/* ql_film.h - exact sums of samples, and their mean */
 /* SPDX-License-Identifier: MIT */
 
 #ifndef QL_FILM_H
 #define QL_FILM_H
 
+#include "base/ql_diag.h"
 #include "math/ql_real.h"
 
 /* Fraction bits of a sum: one radiance unit is 2^24. */
@@ -13,22 +14,6 @@
 typedef struct {
     uint64_t rgb[3];
 } ql_sum_t;
-
-/* What happened while rendering; never changes a pixel. */
-typedef struct {
-    uint32_t paths;
-    uint32_t closest_rays;
-    uint32_t shadow_rays;
-    uint32_t saturated; /* contributions or sums cut at their limit */
-    uint32_t faint;     /* contributions rounded by chance, paths that ended as
-                           their throughput was rounded to zero */
-} ql_diag_t;
-
-#if QL_CFG_DIAG
-#define QL_DIAG_COUNT(diag, counter) ((void)(diag)->counter++)
-#else
-#define QL_DIAG_COUNT(diag, counter) ((void)(diag))
-#endif
 
 /* Largest contribution of one sample, and largest sum. */
 #define QL_CONTRIBUTION_MAX ((uint64_t)1 << 39)

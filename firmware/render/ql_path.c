@@ -10,7 +10,7 @@
 #include "render/ql_path.h"
 
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 /* Density by which a strategy looks for emitters; NONE if it does not. */
 static ql_density_t looks_by(const ql_settings_t *s)

@@ -1,4 +1,4 @@
-/* ql_blob.h - the scene blob as it lies in memory, and how to open it */
+/* ql_blob.h - the scene blob as it lies in memory */
 /* SPDX-License-Identifier: MIT */
 
 /* The layout is specified in BLOB.md. Every field is little-endian: read it
@@ -237,79 +237,5 @@ QL_STATIC_ASSERT(sizeof(ql_blob_sky_t) == 24, ql_blob_sky_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_texel_t) == 4, ql_blob_texel_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_distribution_t) == 12, ql_blob_dist_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_lens_t) == 72, ql_blob_lens_size);
-
-/* A checked, read-only view of a blob. Only ql_blob_open() may fill one. */
-typedef struct ql_scene {
-    const ql_blob_header_t *header;
-    const ql_blob_camera_t *camera;
-    const ql_blob_vertex_t *vertices;
-    const ql_blob_tri_t *triangles;
-    const void *pairs; /* ql_blob_node16_t[2] or ql_blob_pair8_t */
-    const ql_blob_material_t *materials;
-    const ql_blob_light_t *lights;
-    uint16_t light_count;
-    uint16_t root_link;
-    uint8_t root_meta;
-    uint8_t node_bits; /* 8 or 16 */
-    bool two_sided;    /* emitters shine from both sides */
-#if QL_CFG_SMOOTH
-    const ql_blob_normal_t *normals; /* of each vertex, or NULL */
-#endif
-#if QL_GLOSS
-    const ql_blob_gloss_t *gloss;
-    uint16_t gloss_count; /* 0..materials */
-#endif
-#if QL_CFG_SPHERES
-    const ql_blob_sphere_t *spheres;
-#endif
-#if QL_CFG_SKY
-    const ql_blob_sky_t *sky; /* NULL: black */
-#endif
-#if QL_CFG_SKY_MAP
-    const ql_blob_texel_t *texels;
-#endif
-#if QL_CFG_TABLES
-    const ql_blob_distribution_t *tables;
-    const uint16_t *words;
-    uint16_t table_count;
-#endif
-#if QL_CFG_LENS
-    const ql_blob_lens_t *lens; /* NULL: a pinhole */
-#endif
-} ql_scene_t;
-
-/* Check a scene blob and open a read-only view of it, in place.
- *
- *   scene   -      out: the view; all zero if this fails
- *   blob    -      start of the blob, 4-byte aligned; flash is fine
- *   size    bytes  bytes readable at blob
- *   return  QL_OK, or the first reason found:
- *           QL_ERR_ALIGN      blob is not 4-byte aligned
- *           QL_ERR_MAGIC      not a qlux blob
- *           QL_ERR_VERSION    another version of the format (see BLOB.md)
- *           QL_ERR_TRUNCATED  the blob says it is longer than size
- *           QL_ERR_CHECKSUM   contents changed since qlux-scene wrote them
- *           QL_ERR_FEATURE    needs a feature this build lacks, see
- *                             ql_blob_missing()
- *           QL_ERR_RANGE      an offset, index, count or value is outside its
- *                             table or limit
- *           QL_ERR_CAPACITY   deeper than QL_CFG_BVH_STACK
- *
- * Every offset, index, count and enum is checked here, once. Code in trace/ and
- * render/ relies on that and checks nothing again. The length of a normal is
- * checked in builds that use it (QL_UNIT_NORMALS).
- *
- * Memory: copies nothing; the blob must stay mapped and unchanged while in use.
- * Cost:   one pass over the blob.
- */
-QL_MUST_CHECK ql_status_t ql_blob_open(
-        ql_scene_t *scene, const void *blob, size_t size);
-
-/* Name the first feature that a blob needs and this build lacks.
- *
- *   blob    -      as for ql_blob_open(), which returned QL_ERR_FEATURE
- *   return  the feature's name, "unknown" for a bit without one; "" if none
- */
-const char *ql_blob_missing(const void *blob);
 
 #endif

@@ -1,4 +1,4 @@
-/* ql_scene.h - typed, read-only access to the tables of a checked blob */
+/* ql_scene.h - a checked blob: read-only access to its tables */
 /* SPDX-License-Identifier: MIT */
 
 #ifndef QL_SCENE_H
@@ -6,6 +6,46 @@
 
 #include "math/ql_vec.h"
 #include "scene/ql_blob.h"
+
+/* A checked, read-only view of a blob. Only ql_blob_open() may fill one. */
+typedef struct ql_scene {
+    const ql_blob_header_t *header;
+    const ql_blob_camera_t *camera;
+    const ql_blob_vertex_t *vertices;
+    const ql_blob_tri_t *triangles;
+    const void *pairs; /* ql_blob_node16_t[2] or ql_blob_pair8_t */
+    const ql_blob_material_t *materials;
+    const ql_blob_light_t *lights;
+    uint16_t light_count;
+    uint16_t root_link;
+    uint8_t root_meta;
+    uint8_t node_bits; /* 8 or 16 */
+    bool two_sided;    /* emitters shine from both sides */
+#if QL_CFG_SMOOTH
+    const ql_blob_normal_t *normals; /* of each vertex, or NULL */
+#endif
+#if QL_GLOSS
+    const ql_blob_gloss_t *gloss;
+    uint16_t gloss_count; /* 0..materials */
+#endif
+#if QL_CFG_SPHERES
+    const ql_blob_sphere_t *spheres;
+#endif
+#if QL_CFG_SKY
+    const ql_blob_sky_t *sky; /* NULL: black */
+#endif
+#if QL_CFG_SKY_MAP
+    const ql_blob_texel_t *texels;
+#endif
+#if QL_CFG_TABLES
+    const ql_blob_distribution_t *tables;
+    const uint16_t *words;
+    uint16_t table_count;
+#endif
+#if QL_CFG_LENS
+    const ql_blob_lens_t *lens; /* NULL: a pinhole */
+#endif
+} ql_scene_t;
 
 /* Corner i of a triangle, grid units. */
 QL_INLINE ql_vec3_t ql_scene_corner(

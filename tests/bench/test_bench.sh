@@ -73,7 +73,7 @@ awk '
     / flash:/ { flash[firmware] = a[2] }
     / flash-/ { sum[firmware] += a[2] }
     / flash-rest:/ { rest[firmware] = a[2] }
-    / flash-.*: -/ || / flash-(math|trace|hal|blob): 0$/ { bad = bad "; " $0 }
+    / flash-.*: -/ || / flash-(math|trace|hal|data): 0$/ { bad = bad "; " $0 }
     END {
         for (firmware in flash) {
             n++

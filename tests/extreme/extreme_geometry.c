@@ -14,7 +14,7 @@
 #include "warp/ql_warp.h"
 #include "scene/mesh/build_nodes.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 #include "trace/ql_tri.h"
 
 enum { LOW = QL_GRID_MARGIN, HIGH = QL_GRID_MAX - QL_GRID_MARGIN };

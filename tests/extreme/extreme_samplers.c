@@ -14,7 +14,7 @@
 #include "warp/ql_warp.h"
 #include "material/ql_bsdf.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 #define ONE 0x1p-29 /* of s2.29 */
 

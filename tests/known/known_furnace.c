@@ -18,7 +18,7 @@
 #include "render/ql_direct.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 static mini_scene_t m;
 

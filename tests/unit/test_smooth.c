@@ -9,7 +9,7 @@
 #include "support/ql_test.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 #include "trace/ql_tri.h"
 
 #if QL_CFG_SMOOTH

@@ -11,7 +11,7 @@
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 #if QL_CFG_SPHERES
 

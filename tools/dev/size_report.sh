@@ -5,10 +5,10 @@
 usage() {
     cat <<'END'
 usage: tools/dev/size_report.sh [--files] ELF PREFIX
-Print a row "NAME: BYTES" for each folder of sources, "app" for the files right
-in firmware/, "libgcc" for the compiler's own functions, "blob" for the scene,
-and "rest": strings, tables the compiler made, alignment. With --files a row for
-each source instead of each folder. Together they are the flash of ELF.
+Print a row "NAME: BYTES" for each folder of sources, "libgcc" for the compiler's
+own functions, "data" for the scene's blob, and "rest": strings, tables the
+compiler made, alignment. With --files a row for each source instead of each
+folder. Together they are the flash of ELF.
 
 Each instruction counts for the line it was compiled from, wherever inlining and
 link-time optimisation put it; a constant that code loads from beside it for the
@@ -64,7 +64,7 @@ function count(source, n) {
             sub(/^firmware\//, "", source)
             sub(/\/.*/, "", source)
         }
-    } else if (source != "blob" && source != "rest") {
+    } else if (source != "data" && source != "rest") {
         source = "libgcc"
     }
     bytes[source] += n
@@ -149,7 +149,7 @@ END {
         from = first in loader ? loader[first] : half
         count(line[from] == "?" && !(half in inside) ? "rest" : line[from], 2)
     }
-    count("blob", blob)
+    count("data", blob)
     bytes["rest"] += left
     if (files) {
         for (name in bytes) {
@@ -157,8 +157,8 @@ END {
         }
         exit
     }
-    n = split("base math sample scene trace render app hal libgcc blob rest",
-        module, " ")
+    n = split("base math sample warp scene blob trace material light render" \
+        " app hal libgcc data rest", module, " ")
     for (i = 1; i <= n; i++) {
         print module[i] ": " bytes[module[i]] + 0
     }

@@ -14,7 +14,7 @@
 
 #include "base/ql_settings.h"
 #include "ref/ref_vec.h"
-#include "scene/ql_blob.h"
+#include "scene/ql_scene.h"
 
 /* A material: as its entries in the blob, in numbers. */
 typedef struct {

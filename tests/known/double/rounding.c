@@ -12,7 +12,7 @@
 #include "warp/ql_lobe.h"
 #include "warp/ql_warp.h"
 #include "light/ql_light.h"
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 #define ULP     ldexp(1, -QL_POS_BITS) /* of a position, grid units */
 #define BOX     32767.0

@@ -5,7 +5,7 @@
 #define BUILT_H
 
 #include "base/ql_settings.h"
-#include "render/ql_tonemap.h"
+#include "base/ql_format.h"
 
 /* A pixel format: the first. A line of it is no longer than one of RGB888. */
 #define BUILT_FORMAT                                                           \

@@ -17,7 +17,7 @@
 #ifndef MINI_SCENE_H
 #define MINI_SCENE_H
 
-#include "scene/ql_blob.h"
+#include "scene/ql_scene.h"
 
 #define MINI_TRIANGLES_MAX 2000
 #define MINI_VERTICES_MAX  2000

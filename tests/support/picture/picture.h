@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene/ql_blob.h"
+#include "scene/ql_scene.h"
 
 /* Read a whole file into memory that free() takes; NULL if it cannot be read.
  * Aligned as a blob must be. */

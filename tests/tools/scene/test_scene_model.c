@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "lib/program/cli.h"
+#include "blob/ql_blob_open.h"
 #include "support/ql_test.h"
 #include "scene/build/build_camera.h"
 #include "lib/math/build_cdf.h"

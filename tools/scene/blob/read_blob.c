@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blob/ql_blob_open.h"
 #include "lib/program/cli.h"
 #include "scene/blob/write_blob.h"
 

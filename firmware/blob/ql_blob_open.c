@@ -1,11 +1,10 @@
-/* ql_blob.c - check a blob completely, once */
+/* ql_blob_open.c - check a blob completely, once */
 /* SPDX-License-Identifier: MIT */
 
-#include "scene/ql_blob.h"
+#include "blob/ql_blob_open.h"
 
 #include "base/ql_crc.h"
 #include "sample/ql_table.h"
-#include "scene/ql_scene.h"
 
 /* Features of this build. */
 #define BUILT                                                                  \

@@ -1,11 +1,12 @@
-/* ql_surface.h - the point that was hit, on the side it was seen from */
+/* ql_surface_at.h - the point that was hit, on the side it was seen from */
 /* SPDX-License-Identifier: MIT */
 
-#ifndef QL_SURFACE_H
-#define QL_SURFACE_H
+#ifndef QL_SURFACE_AT_H
+#define QL_SURFACE_AT_H
 
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
+#include "scene/ql_surface.h"
 
 /* Work out the surface at a hit.
  *

@@ -1,7 +1,7 @@
-/* ql_surface.c - hit point, exact side correction, unit normal */
+/* ql_surface_at.c - hit point, exact side correction, unit normal */
 /* SPDX-License-Identifier: MIT */
 
-#include "trace/ql_surface.h"
+#include "trace/ql_surface_at.h"
 
 #include "math/ql_real.h"
 #include "trace/ql_sphere.h"
