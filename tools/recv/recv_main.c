@@ -12,7 +12,9 @@
 #include <unistd.h>
 
 #include "base/ql_crc.h"
+#include "lib/program/bytes.h"
 #include "lib/program/cli.h"
+#include "lib/render/widen.h"
 #include "app/ql_stream.h"
 
 static const char help[] =
@@ -58,16 +60,6 @@ typedef struct {
     bool ended;
     uint32_t end[QL_STREAM_END_BYTES / 4];
 } picture_t;
-
-static uint16_t get16(const uint8_t *at)
-{
-    return (uint16_t)(at[0] | at[1] << 8);
-}
-
-static uint32_t get32(const uint8_t *at)
-{
-    return get16(at) | (uint32_t)get16(at + 2) << 16;
-}
 
 /* ---- the input ---------------------------------------------------------- */
 
@@ -197,14 +189,14 @@ static verdict_t judge(
         return PART_OF_FRAME;
     }
     *size = payload_bytes(picture, at[2]);
-    if (*size == 0 || get16(at + 3) != *size) {
+    if (*size == 0 || bytes_get_le16(at + 3) != *size) {
         return NO_FRAME;
     }
     if (left < QL_STREAM_FRAME_BYTES(*size)) {
         return PART_OF_FRAME;
     }
     return ql_crc32(0, at + 2, *size + 3) ==
-                           get32(at + QL_STREAM_PREFIX + *size)
+                           bytes_get_le32(at + QL_STREAM_PREFIX + *size)
                    ? GOOD_FRAME
                    : BAD_FRAME;
 }
@@ -227,7 +219,8 @@ static void skip_to_whole_frame(input_t *in, const picture_t *picture)
 
 static void begin_picture(picture_t *picture, const uint8_t *payload)
 {
-    const uint16_t width = get16(payload), height = get16(payload + 2);
+    const uint16_t width = bytes_get_le16(payload),
+                   height = bytes_get_le16(payload + 2);
 
     free(picture->rgb);
     free(picture->lines);
@@ -242,8 +235,8 @@ static void begin_picture(picture_t *picture, const uint8_t *payload)
     picture->width = width;
     picture->height = height;
     picture->format = (ql_format_t)payload[4];
-    picture->spp = get32(payload + 8);
-    picture->seed = get32(payload + 12);
+    picture->spp = bytes_get_le32(payload + 8);
+    picture->seed = bytes_get_le32(payload + 12);
     picture->line_bytes = QL_LINE_BYTES(width, picture->format);
     picture->rgb = calloc((size_t)width * height, 3);
     picture->lines = calloc(height, 1);
@@ -252,51 +245,16 @@ static void begin_picture(picture_t *picture, const uint8_t *payload)
     }
 }
 
-/* A 5- or 6-bit level as 8 bits: white stays white. */
-static uint8_t widen(unsigned level, unsigned bits)
-{
-    return (uint8_t)(level << (8 - bits) | level >> (2 * bits - 8));
-}
-
-static void decode_pixel(
-        uint8_t rgb[3], ql_format_t format, const uint8_t *line, unsigned x)
-{
-    const unsigned low = format == QL_FORMAT_RGB565_LE ? 0 : 1;
-    unsigned bits;
-
-    switch (format) {
-    case QL_FORMAT_RGB888:
-        memcpy(rgb, line + 3 * x, 3);
-        break;
-    case QL_FORMAT_RGB565_LE:
-    case QL_FORMAT_RGB565_BE:
-        bits = line[2 * x + low] | (unsigned)line[2 * x + 1 - low] << 8;
-        rgb[0] = widen(bits >> 11, 5);
-        rgb[1] = widen(bits >> 5 & 63, 6);
-        rgb[2] = widen(bits & 31, 5);
-        break;
-    case QL_FORMAT_GRAY8:
-        memset(rgb, line[x], 3);
-        break;
-    case QL_FORMAT_GRAY4:
-        bits = line[x / 2];
-        memset(rgb, (int)(x % 2 == 0 ? bits >> 4 : bits & 15) * 17, 3);
-        break;
-    }
-}
-
 static void take_line(picture_t *picture, const uint8_t *payload)
 {
-    const uint16_t y = get16(payload);
+    const uint16_t y = bytes_get_le16(payload);
 
     if (y >= picture->height) {
         picture->bad_frames++;
         return;
     }
-    for (unsigned x = 0; x < picture->width; x++) {
-        decode_pixel(picture->rgb + 3 * ((size_t)y * picture->width + x),
-                picture->format, payload + QL_STREAM_LINE_PREFIX, x);
-    }
+    widen_line(picture->rgb + 3 * (size_t)y * picture->width,
+            payload + QL_STREAM_LINE_PREFIX, picture->format, picture->width);
     if (picture->lines[y] == LINE_GOOD) {
         picture->duplicates++;
     } else {
@@ -319,7 +277,7 @@ static void take_frame(picture_t *picture, const uint8_t *frame)
     default:
         picture->ended = true;
         for (unsigned i = 0; i < QL_STREAM_END_BYTES / 4; i++) {
-            picture->end[i] = get32(payload + 4 * i);
+            picture->end[i] = bytes_get_le32(payload + 4 * i);
         }
     }
 }
@@ -327,7 +285,7 @@ static void take_frame(picture_t *picture, const uint8_t *frame)
 /* A frame whose CRC is wrong: its line number may be wrong too, but helps. */
 static void note_bad_frame(picture_t *picture, const uint8_t *frame)
 {
-    const uint16_t y = get16(frame + QL_STREAM_PREFIX);
+    const uint16_t y = bytes_get_le16(frame + QL_STREAM_PREFIX);
 
     picture->bad_frames++;
     if (frame[2] == QL_STREAM_LINE && y < picture->height &&

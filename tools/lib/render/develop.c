@@ -6,6 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "lib/render/widen.h"
+
 const char *const develop_formats[QL_FORMAT_COUNT + 1] = {
         "rgb888", "rgb565le", "rgb565be", "gray8", "gray4", NULL};
 
@@ -57,42 +59,6 @@ static void develop_linear(image_t *image, const sums_t *sums)
     }
 }
 
-static void widen_565(uint8_t rgb[3], unsigned high, unsigned low)
-{
-    const unsigned r = high >> 3, g = (high & 7u) << 3 | low >> 5;
-    const unsigned b = low & 31u;
-
-    rgb[0] = (uint8_t)(r << 3 | r >> 2);
-    rgb[1] = (uint8_t)(g << 2 | g >> 4);
-    rgb[2] = (uint8_t)(b << 3 | b >> 2);
-}
-
-/* Pixel x of a display line as 8-bit RGB. */
-static void widen(
-        uint8_t rgb[3], const uint8_t *line, ql_format_t format, size_t x)
-{
-    switch (format) {
-    case QL_FORMAT_RGB888:
-        rgb[0] = line[3 * x];
-        rgb[1] = line[3 * x + 1];
-        rgb[2] = line[3 * x + 2];
-        break;
-    case QL_FORMAT_RGB565_LE:
-        widen_565(rgb, line[2 * x + 1], line[2 * x]);
-        break;
-    case QL_FORMAT_RGB565_BE:
-        widen_565(rgb, line[2 * x], line[2 * x + 1]);
-        break;
-    case QL_FORMAT_GRAY8:
-        rgb[0] = rgb[1] = rgb[2] = line[x];
-        break;
-    case QL_FORMAT_GRAY4:
-        rgb[0] = x % 2 == 0 ? line[x / 2] >> 4 : line[x / 2] & 15u;
-        rgb[0] = rgb[1] = rgb[2] = (uint8_t)(17 * rgb[0]);
-        break;
-    }
-}
-
 static void develop_display(
         image_t *image, const sums_t *sums, ql_format_t format)
 {
@@ -114,9 +80,7 @@ static void develop_display(
                     sums->pixels + i, count_of(sums, i, row), exposure, linear);
             ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
         }
-        for (size_t x = 0; x < width; x++) {
-            widen(image->bytes + 3 * (width * y + x), line, format, x);
-        }
+        widen_line(image->bytes + 3 * width * y, line, format, image->width);
     }
     free(line);
 }

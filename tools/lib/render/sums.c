@@ -8,6 +8,7 @@
 
 #include "base/ql_crc.h"
 #include "base/ql_settings.h"
+#include "lib/program/bytes.h"
 
 enum {
     HEAD_BYTES = 8 + 4 * SUMS_FIELD_COUNT,
@@ -216,19 +217,13 @@ static void join_ranges(sums_t *sums)
 
 /* ---- Read -------------------------------------------------------------- */
 
-static uint32_t take_le32(const uint8_t *b)
-{
-    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 |
-           (uint32_t)b[3] << 24;
-}
-
 static const char *take_fields(sums_t *sums, const uint8_t *data, size_t *at)
 {
     static char message[80];
 
     for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++, *at += 4) {
         int64_t value;
-        sums->field[i] = take_le32(data + *at);
+        sums->field[i] = bytes_get_le32(data + *at);
         value = sums_field_value(sums, i);
         if (value < fields[i].min || value > fields[i].max) {
             snprintf(message, sizeof message, "expected a %s from %ld to %lu",
@@ -245,8 +240,8 @@ static const char *take_ranges(
 {
     for (uint32_t i = 0; i < count; i++, *at += RANGE_BYTES) {
         const uint8_t *b = data + *at;
-        const sums_range_t r = {take_le32(b), take_le32(b + 4),
-                take_le32(b + 8), take_le32(b + 12)};
+        const sums_range_t r = {bytes_get_le32(b), bytes_get_le32(b + 4),
+                bytes_get_le32(b + 8), bytes_get_le32(b + 12)};
         sums_range_t clash;
         if (r.row_first >= r.row_end || r.row_end > sums->field[SUMS_HEIGHT]) {
             return "expected a range of rows of the picture";
@@ -264,8 +259,7 @@ static const char *take_ranges(
 static void take_row(ql_sum_t *row, uint32_t width, const uint8_t *data)
 {
     for (size_t i = 0; i < 3 * (size_t)width; i++, data += 8) {
-        row[i / 3].rgb[i % 3] = take_le32(data) | (uint64_t)take_le32(data + 4)
-                                                          << 32;
+        row[i / 3].rgb[i % 3] = bytes_get_le64(data);
     }
 }
 
@@ -312,7 +306,7 @@ const char *sums_decode(
         return "the file ends within its header";
     }
     size -= CRC_BYTES;
-    if (take_le32(data + size) != ql_crc32(0, data, size)) {
+    if (bytes_get_le32(data + size) != ql_crc32(0, data, size)) {
         *where = size;
         return "the CRC-32 does not match: the file was cut or changed";
     }
@@ -321,7 +315,7 @@ const char *sums_decode(
     if (error != NULL) {
         return error;
     }
-    count = take_le32(data + *where);
+    count = bytes_get_le32(data + *where);
     if (count > SUMS_RANGE_MAX || count > (size - HEAD_BYTES) / RANGE_BYTES) {
         return "expected a number of ranges that the file can hold";
     }
@@ -363,9 +357,9 @@ static void put_bytes(checked_t *to, const uint8_t *bytes, size_t size)
 
 static void put_le32(checked_t *to, uint32_t value)
 {
-    const uint8_t bytes[4] = {(uint8_t)value, (uint8_t)(value >> 8),
-            (uint8_t)(value >> 16), (uint8_t)(value >> 24)};
+    uint8_t bytes[4];
 
+    bytes_put_le32(bytes, value);
     put_bytes(to, bytes, sizeof bytes);
 }
 
