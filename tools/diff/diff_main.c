@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "diff/diff_picture.h"
+#include "lib/image/image_file.h"
 
 static const char help[] =
         "qlux-diff: two pictures to a few numbers and a picture\n"

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "lib/image/font.h"
+#include "lib/program/cli.h"
 
 static const uint8_t ink[3] = {24, 24, 28}, gray[3] = {128, 128, 136};
 enum { PAPER = 255 };

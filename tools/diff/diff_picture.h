@@ -4,6 +4,8 @@
 #ifndef DIFF_PICTURE_H
 #define DIFF_PICTURE_H
 
+#include <stddef.h>
+
 #include "lib/image/image.h"
 
 #define DIFF_ZOOM_MAX 16

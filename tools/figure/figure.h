@@ -7,6 +7,9 @@
 #ifndef FIGURE_H
 #define FIGURE_H
 
+#include <stddef.h>
+#include <stdio.h>
+
 #include "lib/image/image.h"
 
 typedef enum { FIGURE_PATH, FIGURE_AREA, FIGURE_DOTS, FIGURE_TEXT } figure_as_t;

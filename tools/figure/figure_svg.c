@@ -2,6 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "figure/figure.h"
+#include "lib/program/cli.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "lib/image/font.h"
-#include "lib/image/image.h"
+#include "lib/image/image_file.h"
 
 static const char help[] =
         "qlux-sheet: labelled pictures in a grid\n"

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/image/image.h"
+#include "lib/image/image_file.h"
 #include "qlux.h"
 #include "lib/render/render_options.h"
 

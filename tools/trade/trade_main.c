@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/image/image_file.h"
 #include "trade/trade.h"
 
 static const char help[] =

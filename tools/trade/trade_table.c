@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/program/cli.h"
 #include "trade/trade.h"
 
 static const char header[] =

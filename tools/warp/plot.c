@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/image/image_file.h"
+
 #define TWO_32    4294967296.0
 #define PNG_SCALE 2.0
 

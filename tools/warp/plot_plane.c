@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/program/cli.h"
 #include "warp/plot.h"
 
 /* Disk, triangle, tent. */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/image/image.h"
+#include "lib/image/image_file.h"
 #include "warp/warps.h"
 
 enum { SAMPLES_DEFAULT = 512, SAMPLES_MAX = 65536, POWER_MAX = 65535 };

@@ -8,6 +8,8 @@
 
 #include "base/ql_crc.h"
 #include "lib/image/deflate.h"
+#include "lib/program/bytes.h"
+#include "lib/program/cli.h"
 
 static const uint8_t signature[8] = {
         0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
@@ -17,19 +19,6 @@ enum { FILTER_NONE, FILTER_SUB, FILTER_UP, FILTER_AVERAGE, FILTER_PAETH };
 /* No zlib stream expands by more than about 1032; a header that promises a
  * larger picture than its data can hold is refused before memory is taken. */
 #define EXPAND_MAX 1040u
-
-static uint32_t take_be32(const uint8_t *b)
-{
-    return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 |
-           b[3];
-}
-
-static void put_be32(uint8_t *b, uint32_t value)
-{
-    for (unsigned i = 0; i < 4; i++) {
-        b[i] = (uint8_t)(value >> (24 - 8 * i));
-    }
-}
 
 /* What a filter predicts from the byte to the left, above, and above left. */
 static int predict(unsigned filter, int left, int up, int corner)
@@ -78,8 +67,8 @@ static const char *take_header(png_t *png, const uint8_t *b, size_t size)
     if (size != 13 || png->width != 0) {
         return "expected one IHDR chunk of 13 bytes";
     }
-    png->width = take_be32(b);
-    png->height = take_be32(b + 4);
+    png->width = bytes_get_be32(b);
+    png->height = bytes_get_be32(b + 4);
     if (png->width == 0 || png->width > IMAGE_SIDE_MAX || png->height == 0 ||
             png->height > IMAGE_SIDE_MAX ||
             png->height > IMAGE_PIXELS_MAX / png->width) {
@@ -106,11 +95,11 @@ static const char *take_chunks(
         if (size - *at < 12) {
             return "the file ends before its IEND chunk";
         }
-        n = take_be32(chunk);
+        n = bytes_get_be32(chunk);
         if (n > size - *at - 12) {
             return "a chunk longer than the file";
         }
-        if (take_be32(chunk + 8 + n) != ql_crc32(0, chunk + 4, n + 4u)) {
+        if (bytes_get_be32(chunk + 8 + n) != ql_crc32(0, chunk + 4, n + 4u)) {
             return "the chunk's CRC-32 does not match";
         }
         if (memcmp(chunk + 4, "IHDR", 4) == 0) {
@@ -203,11 +192,11 @@ static void put_chunk(
 {
     uint8_t word[8];
 
-    put_be32(word, (uint32_t)size); /* a picture has < 2^31 bytes */
+    bytes_put_be32(word, (uint32_t)size); /* a picture has < 2^31 bytes */
     memcpy(word + 4, kind, 4);
     fwrite(word, 1, 8, file);
     fwrite(data, 1, size, file);
-    put_be32(word, ql_crc32(ql_crc32(0, kind, 4), data, size));
+    bytes_put_be32(word, ql_crc32(ql_crc32(0, kind, 4), data, size));
     fwrite(word, 1, 4, file);
 }
 
@@ -259,8 +248,8 @@ void png_write(const image_t *image, FILE *file)
     uint8_t *lines, *packed;
     size_t size, packed_size;
 
-    put_be32(header, image->width);
-    put_be32(header + 4, image->height);
+    bytes_put_be32(header, image->width);
+    bytes_put_be32(header + 4, image->height);
     lines = filter_image(image, &size);
     packed = deflate_pack(lines, size, &packed_size);
     fwrite(signature, 1, sizeof signature, file);

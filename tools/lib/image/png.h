@@ -4,9 +4,18 @@
 #ifndef PNG_H
 #define PNG_H
 
+#include <stddef.h>
+#include <stdio.h>
+
 #include "lib/image/image.h"
 
-/* Decode a PNG; as image_decode(). */
+/* Decode a PNG of 8 bits, RGB or gray, not interlaced.
+ *
+ *   image   -      out: what there is of it is to be freed, even after an error
+ *   data    -      size bytes; any content is safe
+ *   where   bytes  out: offset of what is wrong
+ *   return  NULL, or what was expected there
+ */
 const char *png_decode(
         image_t *image, const uint8_t *data, size_t size, size_t *where);
 

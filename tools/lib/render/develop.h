@@ -4,7 +4,7 @@
 #ifndef DEVELOP_H
 #define DEVELOP_H
 
-#include "lib/image/image.h"
+#include "lib/image/image_file.h"
 #include "render/ql_tonemap.h"
 #include "lib/render/sums.h"
 
@@ -17,9 +17,8 @@ extern const char *const develop_formats[QL_FORMAT_COUNT + 1];
  *   sums    -  rows without samples stay black
  *   kind    -  IMAGE_PFM: linear radiance in the units of Ke, the mean rounded
  *              once to the nearest float, without exposure. Others: the bits
- *              of ql_render_line() in the format, widened to 8-bit RGB
- *   format  -  of the display; five bits widen as v << 3 | v >> 2, six as
- *              v << 2 | v >> 4, four as 17 v
+ *              of ql_render_line() in the format, widened by widen_line()
+ *   format  -  of the display
  */
 void develop(image_t *image, const sums_t *sums, image_kind_t kind,
         ql_format_t format);

@@ -4,7 +4,7 @@
 #include "scene/read/read_sky.h"
 
 #include "lib/program/cli.h"
-#include "lib/image/image.h"
+#include "lib/image/image_file.h"
 
 #define SIDE_MAX 4096
 

@@ -1,0 +1,76 @@
+/* image_file.c - which reader or writer a picture file wants */
+/* SPDX-License-Identifier: MIT */
+
+#include "lib/image/image_file.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "lib/image/png.h"
+#include "lib/image/pnm.h"
+
+image_kind_t image_kind(const char *option, const char *path)
+{
+    const size_t n = strlen(path);
+    const char *end = n > 4 ? path + n - 4 : "";
+
+    if (strcasecmp(end, ".ppm") == 0) {
+        return IMAGE_PPM;
+    }
+    if (strcasecmp(end, ".pfm") == 0) {
+        return IMAGE_PFM;
+    }
+    if (strcasecmp(end, ".png") == 0) {
+        return IMAGE_PNG;
+    }
+    cli_fail(CLI_USAGE, "'%s %s': expected a name ending in .ppm, .pfm or .png",
+            option, path);
+}
+
+const char *image_decode(
+        image_t *image, const uint8_t *data, size_t size, size_t *where)
+{
+    const char *error = "expected a PPM (P6), PFM (PF) or PNG file";
+
+    memset(image, 0, sizeof *image);
+    *where = 0;
+    if (size >= 2 &&
+            (memcmp(data, "P6", 2) == 0 || memcmp(data, "PF", 2) == 0 ||
+                    memcmp(data, "Pf", 2) == 0)) {
+        error = pnm_decode(image, data, size, where);
+    } else if (size >= 2 && memcmp(data, "\x89P", 2) == 0) {
+        error = png_decode(image, data, size, where);
+    }
+    if (error != NULL) {
+        image_free(image);
+    }
+    return error;
+}
+
+void image_read(image_t *image, const char *path)
+{
+    size_t size, where;
+    uint8_t *data = cli_read(path, &size);
+    const char *error = image_decode(image, data, size, &where);
+
+    if (error != NULL) {
+        cli_fail(CLI_INPUT, "%s: byte %zu: %s", path, where, error);
+    }
+    free(data);
+}
+
+void image_write(const image_t *image, image_kind_t kind, cli_out_t *out)
+{
+    switch (kind) {
+    case IMAGE_PPM:
+        pnm_write_ppm(image, out->file);
+        break;
+    case IMAGE_PFM:
+        pnm_write_pfm(image, out->file);
+        break;
+    case IMAGE_PNG:
+        png_write(image, out->file);
+        break;
+    }
+}

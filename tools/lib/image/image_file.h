@@ -1,0 +1,35 @@
+/* image_file.h - read and write picture files: PPM, PFM and PNG */
+/* SPDX-License-Identifier: MIT */
+
+#ifndef IMAGE_FILE_H
+#define IMAGE_FILE_H
+
+#include "lib/image/image.h"
+#include "lib/program/cli.h"
+
+typedef enum { IMAGE_PPM, IMAGE_PFM, IMAGE_PNG } image_kind_t;
+
+/* What kind of file a name asks for, by its extension in either case;
+ * cli_fail(CLI_USAGE) if none. option names the option it came from. */
+image_kind_t image_kind(const char *option, const char *path);
+
+/* Decode a file's bytes, the kind told by how they begin.
+ *
+ *   image   -      out: to be freed if this succeeds, zero if it fails
+ *   data    -      size bytes; any content is safe
+ *   where   bytes  out: offset of what is wrong
+ *   return  NULL, or what was expected there
+ *
+ * PPM and PFM: as pnm_decode() says. PNG: as png_decode() says.
+ */
+const char *image_decode(
+        image_t *image, const uint8_t *data, size_t size, size_t *where);
+
+/* Read a file; cli_fail(CLI_IO) or cli_fail(CLI_INPUT) with the byte offset. */
+void image_read(image_t *image, const char *path);
+
+/* Write into an open file; errors show when the file is committed. PFM wants
+ * floats, the others bytes. */
+void image_write(const image_t *image, image_kind_t kind, cli_out_t *out);
+
+#endif
