@@ -242,6 +242,19 @@
             QL_CFG_SKY || QL_CFG_STRATEGIES)
 
 /* Materials that are more than diffuse. */
-#define QL_GLOSS (QL_CFG_PHONG || QL_CFG_MIRROR || QL_CFG_GLASS)
+#if QL_CFG_PHONG || QL_CFG_MIRROR || QL_CFG_GLASS
+#define QL_GLOSS 1
+#else
+#define QL_GLOSS 0
+#endif
+
+/* A member of a struct, or its initialiser, that exists only if a gate is 1, so
+ * that a board keeps no RAM for what it was built without. Only for members:
+ * the header of a feature has one-line stubs for functions that are not built,
+ * and who calls them asks for no gate. */
+#define QL_IF_BUILT(gate, member)  QL_IF_BUILT_(gate, member)
+#define QL_IF_BUILT_(gate, member) QL_IF_BUILT_##gate(member)
+#define QL_IF_BUILT_0(member)
+#define QL_IF_BUILT_1(member) member
 
 #endif

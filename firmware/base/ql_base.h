@@ -144,22 +144,29 @@ QL_INLINE uint64_t ql_abs64(int64_t x)
 
 /* Leading zero bits; 32 (64) for 0. Where the CPU cannot count them the
  * compiler's own function is longer than a loop. */
+#if QL_CLZ_BUILTIN
 QL_CLZ_INLINE unsigned ql_clz32(uint32_t x)
 {
     if (x == 0) {
         return 32;
     }
-#if QL_CLZ_BUILTIN
     return (unsigned)__builtin_clzl((unsigned long)x) -
            8u * (unsigned)(sizeof(unsigned long) - 4);
+}
 #else
+QL_CLZ_INLINE unsigned ql_clz32(uint32_t x)
+{
     unsigned n = 0;
+
+    if (x == 0) {
+        return 32;
+    }
     for (; x < 0x80000000u; x <<= 1) {
         n++;
     }
     return n;
-#endif
 }
+#endif
 
 QL_INLINE unsigned ql_clz64(uint64_t x)
 {

@@ -1,9 +1,18 @@
-/* ql_crc.c - CRC-32 by half bytes: a 16-entry table */
+/* ql_crc.c - CRC-32 by half bytes from a table, or bit by bit */
 /* SPDX-License-Identifier: MIT */
 
 #include "base/ql_crc.h"
 
-#if !QL_CFG_SMALL
+/* The CRC after eight more bits, which are in its lowest eight. */
+#if QL_CFG_SMALL
+static uint32_t byte_step(uint32_t crc)
+{
+    for (unsigned k = 0; k < 8; k++) {
+        crc = crc & 1u ? crc >> 1 ^ 0xedb88320u : crc >> 1;
+    }
+    return crc;
+}
+#else
 /* Entry n is n shifted through four steps of the reflected polynomial
  * 0xEDB88320; tests/unit/test_crc.c derives them again. */
 static const uint32_t crc_nibble[16] = {
@@ -24,6 +33,12 @@ static const uint32_t crc_nibble[16] = {
         0xa00ae278u,
         0xbdbdf21cu,
 };
+
+static uint32_t byte_step(uint32_t crc)
+{
+    crc = crc >> 4 ^ crc_nibble[crc & 15u];
+    return crc >> 4 ^ crc_nibble[crc & 15u];
+}
 #endif
 
 uint32_t ql_crc32(uint32_t crc, const void *data, size_t size)
@@ -32,15 +47,7 @@ uint32_t ql_crc32(uint32_t crc, const void *data, size_t size)
 
     crc = ~crc;
     for (size_t i = 0; i < size; i++) {
-        crc ^= bytes[i];
-#if QL_CFG_SMALL
-        for (unsigned k = 0; k < 8; k++) {
-            crc = crc & 1u ? crc >> 1 ^ 0xedb88320u : crc >> 1;
-        }
-#else
-        crc = crc >> 4 ^ crc_nibble[crc & 15u];
-        crc = crc >> 4 ^ crc_nibble[crc & 15u];
-#endif
+        crc = byte_step(crc ^ bytes[i]);
     }
     return ~crc;
 }

@@ -53,10 +53,9 @@ typedef struct {
     uint8_t lights;        /* ql_light_choice_t */
     uint8_t light_samples; /* samples an emitter asked, 1..255 */
     uint8_t roulette;      /* 0 or 1: Russian roulette */
-#if QL_CFG_ADAPTIVE
-    uint16_t error_q16; /* u0.16: a pixel stops at this standard error, a part
-                           of its mean; 0: it takes all its samples */
-#endif
+    /* u0.16: a pixel stops at this standard error, a part of its mean; 0: it
+     * takes all its samples */
+    QL_IF_BUILT(QL_CFG_ADAPTIVE, uint16_t error_q16;)
 } ql_settings_t;
 
 /* Sobol points and 4 bounces, or what there is of them in the build. */

@@ -21,30 +21,17 @@ typedef struct ql_scene {
     uint8_t root_meta;
     uint8_t node_bits; /* 8 or 16 */
     bool two_sided;    /* emitters shine from both sides */
-#if QL_CFG_SMOOTH
-    const ql_blob_normal_t *normals; /* of each vertex, or NULL */
-#endif
-#if QL_GLOSS
-    const ql_blob_gloss_t *gloss;
-    uint16_t gloss_count; /* 0..materials */
-#endif
-#if QL_CFG_SPHERES
-    const ql_blob_sphere_t *spheres;
-#endif
-#if QL_CFG_SKY
-    const ql_blob_sky_t *sky; /* NULL: black */
-#endif
-#if QL_CFG_SKY_MAP
-    const ql_blob_texel_t *texels;
-#endif
-#if QL_CFG_TABLES
-    const ql_blob_distribution_t *tables;
-    const uint16_t *words;
-    uint16_t table_count;
-#endif
-#if QL_CFG_LENS
-    const ql_blob_lens_t *lens; /* NULL: a pinhole */
-#endif
+    /* optional tables; a pointer is NULL where the scene has none */
+    QL_IF_BUILT(QL_CFG_SMOOTH, const ql_blob_normal_t *normals;)
+    QL_IF_BUILT(QL_GLOSS, const ql_blob_gloss_t *gloss;)
+    QL_IF_BUILT(QL_GLOSS, uint16_t gloss_count;) /* 0..materials */
+    QL_IF_BUILT(QL_CFG_SPHERES, const ql_blob_sphere_t *spheres;)
+    QL_IF_BUILT(QL_CFG_SKY, const ql_blob_sky_t *sky;)
+    QL_IF_BUILT(QL_CFG_SKY_MAP, const ql_blob_texel_t *texels;)
+    QL_IF_BUILT(QL_CFG_TABLES, const ql_blob_distribution_t *tables;)
+    QL_IF_BUILT(QL_CFG_TABLES, const uint16_t *words;)
+    QL_IF_BUILT(QL_CFG_TABLES, uint16_t table_count;)
+    QL_IF_BUILT(QL_CFG_LENS, const ql_blob_lens_t *lens;)
 } ql_scene_t;
 
 /* Corner i of a triangle, grid units. */
@@ -54,9 +41,9 @@ QL_INLINE ql_vec3_t ql_scene_corner(
     const ql_blob_vertex_t *v = scene->vertices + QL_LE16(tri->vertex[i]);
     ql_vec3_t p;
 
-#if QL_CFG_PAGES
-    v += (uint32_t)(QL_LE16(tri->material) >> 14) << 16;
-#endif
+    if (QL_CFG_PAGES) {
+        v += (uint32_t)(QL_LE16(tri->material) >> 14) << 16;
+    }
     p.x = (int32_t)QL_LE16(v->xyz[0]);
     p.y = (int32_t)QL_LE16(v->xyz[1]);
     p.z = (int32_t)QL_LE16(v->xyz[2]);
@@ -92,32 +79,98 @@ QL_INLINE const ql_blob_material_t *ql_scene_material(
     return scene->materials + (QL_LE16(tri->material) & 0x3fffu);
 }
 
-/* The sphere that an entry of the table of triangles is, or NULL. */
-QL_INLINE const ql_blob_sphere_t *ql_scene_sphere(
-        const ql_scene_t *scene, const ql_blob_tri_t *tri)
+/* What is optional in a scene. Each of these is NULL for nothing, and always
+ * where the feature is not built in:
+ *   ql_scene_normals  the corner normals, one for each vertex
+ *   ql_scene_gloss    what a material is beyond diffuse
+ *   ql_scene_sphere   the sphere that an entry of the table of triangles is
+ *   ql_scene_sky      light from all around; black without
+ *   ql_scene_texels   the map of the sky, which is constant without
+ *   ql_scene_lens     the lens of the camera, a pinhole without */
+#if QL_CFG_SMOOTH
+QL_INLINE const ql_blob_normal_t *ql_scene_normals(const ql_scene_t *scene)
 {
-#if QL_CFG_SPHERES
-    return tri->inv_n == 0 ? scene->spheres + QL_LE16(tri->vertex[0]) : NULL;
-#else
-    (void)scene;
-    (void)tri;
-    return NULL;
-#endif
+    return scene->normals;
 }
+#else
+QL_INLINE const ql_blob_normal_t *ql_scene_normals(const ql_scene_t *scene)
+{
+    (void)scene;
+    return NULL;
+}
+#endif
 
-/* What a material is beyond diffuse; NULL for nothing. */
+#if QL_GLOSS
 QL_INLINE const ql_blob_gloss_t *ql_scene_gloss(
         const ql_scene_t *scene, const ql_blob_material_t *material)
 {
-#if QL_GLOSS
     const size_t index = (size_t)(material - scene->materials);
 
     return index < scene->gloss_count ? scene->gloss + index : NULL;
+}
 #else
+QL_INLINE const ql_blob_gloss_t *ql_scene_gloss(
+        const ql_scene_t *scene, const ql_blob_material_t *material)
+{
     (void)scene;
     (void)material;
     return NULL;
-#endif
 }
+#endif
+
+#if QL_CFG_SPHERES
+QL_INLINE const ql_blob_sphere_t *ql_scene_sphere(
+        const ql_scene_t *scene, const ql_blob_tri_t *tri)
+{
+    return tri->inv_n == 0 ? scene->spheres + QL_LE16(tri->vertex[0]) : NULL;
+}
+#else
+QL_INLINE const ql_blob_sphere_t *ql_scene_sphere(
+        const ql_scene_t *scene, const ql_blob_tri_t *tri)
+{
+    (void)scene;
+    (void)tri;
+    return NULL;
+}
+#endif
+
+#if QL_CFG_SKY
+QL_INLINE const ql_blob_sky_t *ql_scene_sky(const ql_scene_t *scene)
+{
+    return scene->sky;
+}
+#else
+QL_INLINE const ql_blob_sky_t *ql_scene_sky(const ql_scene_t *scene)
+{
+    (void)scene;
+    return NULL;
+}
+#endif
+
+#if QL_CFG_SKY_MAP
+QL_INLINE const ql_blob_texel_t *ql_scene_texels(const ql_scene_t *scene)
+{
+    return scene->texels;
+}
+#else
+QL_INLINE const ql_blob_texel_t *ql_scene_texels(const ql_scene_t *scene)
+{
+    (void)scene;
+    return NULL;
+}
+#endif
+
+#if QL_CFG_LENS
+QL_INLINE const ql_blob_lens_t *ql_scene_lens(const ql_scene_t *scene)
+{
+    return scene->lens;
+}
+#else
+QL_INLINE const ql_blob_lens_t *ql_scene_lens(const ql_scene_t *scene)
+{
+    (void)scene;
+    return NULL;
+}
+#endif
 
 #endif

@@ -13,21 +13,35 @@ typedef struct {
     ql_vec3_t p;    /* ql_pos_t: strictly on the side of n */
     ql_vec3_t n;    /* exact, |n| < 2^31 */
     uint32_t inv_n; /* 1/|n|, packed as in ql_blob_tri_t */
-#if QL_CFG_SMOOTH
-    bool smooth;     /* the shading normal is not n */
-    ql_vec3_t shade; /* s2.29: unit shading normal if smooth; shade.n > 0 */
-#endif
+    /* is there a shading normal that is not n; if so, it, a unit vector in
+     * s2.29 with shade.n > 0 */
+    QL_IF_BUILT(QL_CFG_SMOOTH, bool smooth;)
+    QL_IF_BUILT(QL_CFG_SMOOTH, ql_vec3_t shade;)
 } ql_surface_t;
 
-/* Does its shading normal differ from its plane's? */
+/* ql_surface_is_smooth: does a surface have a shading normal of its own?
+ * ql_surface_shade: that normal, s2.29; only of a smooth surface. */
+#if QL_CFG_SMOOTH
 QL_INLINE bool ql_surface_is_smooth(const ql_surface_t *surface)
 {
-#if QL_CFG_SMOOTH
     return surface->smooth;
+}
+
+QL_INLINE ql_vec3_t ql_surface_shade(const ql_surface_t *surface)
+{
+    return surface->shade;
+}
 #else
+QL_INLINE bool ql_surface_is_smooth(const ql_surface_t *surface)
+{
     (void)surface;
     return false;
-#endif
 }
+
+QL_INLINE ql_vec3_t ql_surface_shade(const ql_surface_t *surface)
+{
+    return surface->n;
+}
+#endif
 
 #endif
