@@ -11,7 +11,7 @@
 
 #include "base/ql_settings.h"
 #include "math/ql_rgb.h"
-#include "render/ql_film.h"
+#include "film/ql_film.h"
 #include "sample/ql_sampler.h"
 #include "material/ql_bsdf.h"
 #include "scene/ql_ray.h"

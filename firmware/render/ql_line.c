@@ -3,7 +3,7 @@
 
 #include "render/ql_line.h"
 
-#include "render/ql_adaptive.h"
+#include "film/ql_adaptive.h"
 #include "render/ql_path.h"
 
 /* Does a build without QL_CFG_STRATEGIES have what is asked for? */

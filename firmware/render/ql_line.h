@@ -4,8 +4,8 @@
 #ifndef QL_LINE_H
 #define QL_LINE_H
 
-#include "render/ql_film.h"
-#include "render/ql_tonemap.h"
+#include "film/ql_film.h"
+#include "film/ql_tonemap.h"
 #include "scene/ql_camera.h"
 #include "base/ql_settings.h"
 

@@ -16,7 +16,7 @@
 #include "support/picture/lambert.h"
 #include "support/ql_test.h"
 #include "qlux.h"
-#include "render/ql_adaptive.h"
+#include "film/ql_adaptive.h"
 
 #if QL_CFG_ADAPTIVE
 

@@ -11,7 +11,7 @@
 # Example: tests/lint/check_layers.sh
 
 set -u
-layers='base math sample warp scene blob trace material light render app'
+layers='base math sample warp scene blob trace material light film render app'
 failed=0
 
 claim()

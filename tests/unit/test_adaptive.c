@@ -10,7 +10,7 @@
 #include "support/ql_test.h"
 #include "support/ql_wide.h"
 #include "qlux.h"
-#include "render/ql_adaptive.h"
+#include "film/ql_adaptive.h"
 
 /* ---- A scene ----------------------------------------------------------- */
 

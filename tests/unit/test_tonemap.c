@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "support/ql_test.h"
-#include "render/ql_tonemap.h"
+#include "film/ql_tonemap.h"
 
 #define WHITE       65536u
 #define LEVEL_BOUND (255 / 2048.0) /* 2^-11 of 8-bit white */

@@ -157,7 +157,7 @@ END {
         }
         exit
     }
-    n = split("base math sample warp scene blob trace material light render" \
+    n = split("base math sample warp scene blob trace material light film render" \
         " app hal libgcc data rest", module, " ")
     for (i = 1; i <= n; i++) {
         print module[i] ": " bytes[module[i]] + 0

@@ -4,7 +4,7 @@
 #ifndef FILM_ADD_H
 #define FILM_ADD_H
 
-#include "render/ql_film.h"
+#include "film/ql_film.h"
 
 static inline void film_add(uint64_t *sum, ql_uq31_t value, ql_real_t scale,
         uint32_t key, ql_diag_t *diag)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
+#include "blob/ql_blob_open.h"
 #include "sample/ql_table.h"
 
 #define PI 3.14159265358979323846

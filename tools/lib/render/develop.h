@@ -5,7 +5,7 @@
 #define DEVELOP_H
 
 #include "lib/image/image_file.h"
-#include "render/ql_tonemap.h"
+#include "film/ql_tonemap.h"
 #include "lib/render/sums.h"
 
 /* Names of ql_format_t, as an option takes them; NULL ends them. */

@@ -20,7 +20,7 @@
 #define SUMS_H
 
 #include "lib/program/cli.h"
-#include "render/ql_film.h"
+#include "film/ql_film.h"
 
 #define SUMS_RANGE_MAX 65536u
 

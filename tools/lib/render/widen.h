@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include "render/ql_tonemap.h"
+#include "film/ql_tonemap.h"
 
 /* What a display shows, for a picture file: black stays 0, white becomes 255.
  *

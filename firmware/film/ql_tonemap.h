@@ -5,7 +5,7 @@
 #define QL_TONEMAP_H
 
 #include "base/ql_format.h"
-#include "render/ql_film.h"
+#include "film/ql_film.h"
 
 /* Encode one pixel of a line.
  *

@@ -12,7 +12,7 @@
 #ifndef QL_ADAPTIVE_H
 #define QL_ADAPTIVE_H
 
-#include "render/ql_film.h"
+#include "film/ql_film.h"
 
 /* Samples a pixel has at least, a power of two; and without any light in one
  * half. */

@@ -1,7 +1,7 @@
 /* ql_film.c - add up contributions, take the mean */
 /* SPDX-License-Identifier: MIT */
 
-#include "render/ql_film.h"
+#include "film/ql_film.h"
 
 #include "sample/ql_hash.h"
 

@@ -1,7 +1,7 @@
 /* ql_tonemap.c - sRGB curve, ordered dither, pixel formats */
 /* SPDX-License-Identifier: MIT */
 
-#include "render/ql_tonemap.h"
+#include "film/ql_tonemap.h"
 
 #include "math/ql_lut.h"
 

@@ -1,7 +1,7 @@
 /* ql_adaptive.c - sums of squares, the stopping rule, the mean of two halves */
 /* SPDX-License-Identifier: MIT */
 
-#include "render/ql_adaptive.h"
+#include "film/ql_adaptive.h"
 
 #if QL_CFG_ADAPTIVE
 
