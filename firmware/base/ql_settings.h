@@ -58,6 +58,27 @@ typedef struct {
     QL_IF_BUILT(QL_CFG_ADAPTIVE, uint16_t error_q16;)
 } ql_settings_t;
 
+/* Which gate of ql_config.h a setting needs: a build without GATE refuses a
+ * MEMBER from FIRST to LAST, or such a pair of members. This is the only list:
+ * tools/dev/gates.awk reads the same rows for make and for make trade. Beside
+ * it, QL_CFG_SAMPLERS has a bit for each ql_sampler_kind_t, and error_q16 does
+ * not exist without QL_CFG_ADAPTIVE.
+ *
+ *   NEED(GATE, MEMBER, FIRST, LAST)
+ *   BOTH(GATE, MEMBER, FIRST, LAST, MEMBER, FIRST, LAST) */
+#define QL_SETTINGS_NEED(NEED, BOTH)                                           \
+    NEED(STRATEGIES, direct, QL_DIRECT_HEMISPHERE, QL_DIRECT_MIS)              \
+    NEED(STRATEGIES, indirect, QL_INDIRECT_UNIFORM, QL_INDIRECT_UNIFORM)       \
+    NEED(STRATEGIES, lights, QL_LIGHTS_ALL, QL_LIGHTS_UNIFORM)                 \
+    NEED(STRATEGIES, light_samples, 2, 255)                                    \
+    NEED(STRATEGIES, roulette, 1, 1)                                           \
+    BOTH(INDIRECT, bounces, 1, QL_BOUNCES_MAX, indirect, QL_INDIRECT_COSINE,   \
+            QL_INDIRECT_BRDF)
+
+/* error_q16 of a part of 1, rounded: on a board of a constant, by the compiler.
+ *   part  -  0, or from 0.00001 to 0.9999 */
+#define QL_ERROR_Q16(part) ((uint16_t)((part)*65536 + 0.5))
+
 /* Sobol points and 4 bounces, or what there is of them in the build. */
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \

@@ -6,21 +6,24 @@
 #include "film/ql_adaptive.h"
 #include "render/ql_path.h"
 
-/* Does a build without QL_CFG_STRATEGIES have what is asked for? */
-static bool is_default(const ql_settings_t *s)
+static bool is_within(unsigned value, unsigned first, unsigned last)
 {
-    return s->direct <= QL_DIRECT_AREA && s->indirect != QL_INDIRECT_UNIFORM &&
-           s->lights == QL_LIGHTS_POWER && s->light_samples == 1 &&
-           s->roulette == 0;
+    return value >= first && value <= last;
 }
 
-/* Does it have the sampler, and the bounces? */
-static bool is_built(const ql_settings_t *s)
+/* Rows of QL_SETTINGS_NEED: the gate is needed, and the build is without it. */
+#define LACKS(gate, member, first, last)                                       \
+    (!QL_CFG_##gate && is_within(s->member, first, last)) ||
+#define LACKS_BOTH(gate, a, a_first, a_last, b, b_first, b_last)               \
+    (!QL_CFG_##gate && is_within(s->a, a_first, a_last) &&                     \
+            is_within(s->b, b_first, b_last)) ||
+
+/* Do the settings need what this build is without, a gate or their sampler? */
+static bool lacks_a_gate(const ql_settings_t *s)
 {
-    return ((QL_CFG_SAMPLERS >> s->sampler) & 1) != 0 &&
-           (QL_CFG_INDIRECT || s->bounces == 0 ||
-                   s->indirect == QL_INDIRECT_NONE) &&
-           (QL_CFG_STRATEGIES || is_default(s));
+    const bool lacks = QL_SETTINGS_NEED(LACKS, LACKS_BOTH) false;
+
+    return lacks || ((QL_CFG_SAMPLERS >> s->sampler) & 1) == 0;
 }
 
 static bool settings_in_range(const ql_settings_t *s)
@@ -30,7 +33,7 @@ static bool settings_in_range(const ql_settings_t *s)
            s->bounces <= QL_BOUNCES_MAX && s->sampler <= QL_SAMPLER_SOBOL &&
            s->direct <= QL_DIRECT_MIS && s->indirect <= QL_INDIRECT_BRDF &&
            s->lights <= QL_LIGHTS_UNIFORM && s->light_samples >= 1 &&
-           s->roulette <= 1 && is_built(s);
+           s->roulette <= 1 && !lacks_a_gate(s);
 }
 
 ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,

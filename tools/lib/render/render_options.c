@@ -74,7 +74,7 @@ static uint16_t take_part(const char *option, const char *text)
                 "'%s %s': expected 0, or a part from 0.00001 to 0.9999", option,
                 value);
     }
-    return (uint16_t)(part * 65536 + 0.5); /* at most 65535 */
+    return QL_ERROR_Q16(part); /* at most 65535 */
 }
 
 static void take_size(ql_settings_t *s, const char *option, const char *text)
