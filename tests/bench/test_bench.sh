@@ -13,12 +13,20 @@ set -u
 dir=$(mktemp -d) || exit 3
 trap 'rm -rf "$dir"' EXIT
 make=${MAKE:-make}
-failed=0
+. tests/support/claims.sh
+
+# say_rows SUITE: a claim for each row "CLAIM ok|FAIL NOTE" of $dir/rows
+say_rows()
+{
+    while read -r claim verdict note; do
+        say_as "$1" "$claim" "$verdict" "$note"
+    done < "$dir/rows"
+}
 
 # Compare rows "NAME: N" of $2 with the budget $1; a missing row fails.
 compare()
 {
-    awk -v suite="$3" '
+    awk '
         /^#/ { next }
         FNR == NR { split($0, a, ": "); got[a[1]] = a[2]; next }
         {
@@ -27,40 +35,36 @@ compare()
             gsub(/ /, "_", claim)
             n = got[a[1]]
             ok = n != "" && n + 0 <= a[2] + 0
-            if (!ok) bad = 1
-            printf "%s %s_within_budget %s %s of %s\n", suite, claim,
+            printf "%s_within_budget %s %s of %s\n", claim,
                 ok ? "ok" : "FAIL", n == "" ? "no row" : n, a[2]
-        }
-        END { exit bad }' "$2" "$1"
+        }' "$2" "$1" > "$dir/rows"
+    say_rows "$3"
 }
 
 # rows TARGET...: add the rows that make prints of it
 rows()
 {
-    $make -s --no-print-directory "$@" >> "$dir/bench" 2> "$dir/log" || {
-        echo "bench/boards $1_runs_on_its_boards FAIL" "$(tail -1 "$dir/log")"
-        failed=1
-    }
+    $make -s --no-print-directory "$@" >> "$dir/bench" 2> "$dir/log" ||
+        say_as bench/boards "$1_runs_on_its_boards" FAIL \
+            "$(tail -n 1 "$dir/log")"
 }
 
 rows bench-boards
 rows bench-warps WARP_BOARDS='lm3s6965evb microbit'
 rows bench-strategies
-compare tests/budgets/instructions.txt "$dir/bench" bench/boards || failed=1
+compare tests/budgets/instructions.txt "$dir/bench" bench/boards
 
 # size_of VARIABLE=value...: add the rows of that choice
 size_of()
 {
-    $make -s --no-print-directory size "$@" >> "$dir/size" 2> "$dir/log" || {
-        echo "bench/size measures_every_board FAIL" "$(tail -1 "$dir/log")"
-        failed=1
-    }
+    $make -s --no-print-directory size "$@" >> "$dir/size" 2> "$dir/log" ||
+        say_as bench/size measures_every_board FAIL "$(tail -n 1 "$dir/log")"
 }
 
 size_of
 size_of BOARD=microbit SMALL=1
 size_of BOARD=microbit SMALL=1 SCENE=square INDIRECT=none BOUNCES=0
-compare tests/budgets/sizes.txt "$dir/size" bench/size || failed=1
+compare tests/budgets/sizes.txt "$dir/size" bench/size
 
 # Every firmware's modules add up to its flash, and little is nobody's.
 awk '
@@ -83,19 +87,16 @@ awk '
             }
         }
         if (n == 0) bad = "; no firmware"
-        printf "bench/size modules_add_up_to_the_flash %s\n",
+        printf "modules_add_up_to_the_flash %s\n",
             bad == "" ? "ok " n " firmwares" : "FAIL " substr(bad, 3)
-        exit bad != ""
-    }' "$dir/size" || failed=1
+    }' "$dir/size" > "$dir/rows"
+say_rows bench/size
 
-if $make -s --no-print-directory bench-pc > "$dir/pc" 2>&1; then
-    echo "bench/pc both_tracers_hit_the_same_triangles ok"
-else
-    echo "bench/pc both_tracers_hit_the_same_triangles FAIL $(tail -1 "$dir/pc")"
-    failed=1
-fi
-if ! grep -q 'pc fine closest-ratio: [0-9.]*$' "$dir/pc"; then
-    echo "bench/pc prints_its_ratios FAIL"
-    failed=1
-fi
-exit $failed
+suite=bench/pc
+$make -s --no-print-directory bench-pc > "$dir/pc" 2>&1
+status=$?
+say both_tracers_hit_the_same_triangles $status "$(
+    [ $status -eq 0 ] || tail -n 1 "$dir/pc")"
+grep -q 'pc fine closest-ratio: [0-9.]*$' "$dir/pc"
+say prints_its_ratios $?
+exit $((failures > 0))

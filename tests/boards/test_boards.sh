@@ -12,24 +12,23 @@ if [ $# -eq 0 ]; then
 fi
 
 make=${MAKE:-make}
-failed=0
+. tests/support/claims.sh
 mkdir -p build/fail
 log=$(mktemp) || exit 3
 trap 'rm -f "$log"' EXIT
 
-# claim BOARD CLAIM COMMAND...: run it, say one line; its output on a failure.
-claim() {
-    board=$1
+# check BOARD CLAIM COMMAND...: run it, say one line; its output on a failure.
+check() {
+    suite=boards/$1
     name=$2
     shift 2
     note=
     if "$@" >"$log" 2>&1; then
-        printf 'boards/%-14s %-42s ok   %s\n' "$board" "$name" "$note"
+        say "$name" 0 "$note"
     else
-        printf 'boards/%-14s %-42s FAIL\n' "$board" "$name"
+        say "$name" 1
         grep -v '^[a-z0-9-]*-gcc ' "$log" | tail -12 >&2
         echo "    again: $*" >&2
-        failed=1
     fi
 }
 
@@ -116,49 +115,49 @@ stack() {
 SCENE=${SCENE:-cornell}
 default_scene=$SCENE
 export SCENE
-claim template port_that_does_nothing_compiles "$make" test-template
+check template port_that_does_nothing_compiles "$make" test-template
 for board; do
-    claim "$board" draft_picture_is_the_simulators same "$board"
-    claim "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
-    claim "$board" interlaced_picture_is_the_same \
+    check "$board" draft_picture_is_the_simulators same "$board"
+    check "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
+    check "$board" interlaced_picture_is_the_same \
         same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SAMPLER=random SEED=9
-    claim "$board" spheres_phong_mirror_and_glass_are_the_same \
+    check "$board" spheres_phong_mirror_and_glass_are_the_same \
         scene glossy "$board" SIZE=20x20 SPP=1
-    claim "$board" sky_map_by_mis_is_the_same \
+    check "$board" sky_map_by_mis_is_the_same \
         scene sky "$board" SIZE=20x20 SPP=1 DIRECT=mis ROULETTE=1
-    claim "$board" lens_is_the_same scene lens "$board" SIZE=20x20 SPP=1
-    claim "$board" smooth_normals_are_the_same \
+    check "$board" lens_is_the_same scene lens "$board" SIZE=20x20 SPP=1
+    check "$board" smooth_normals_are_the_same \
         scene smooth "$board" SIZE=20x20 SPP=1 PRECISION=fine
-    claim "$board" nearest_entries_of_short_tables_are_the_same \
+    check "$board" nearest_entries_of_short_tables_are_the_same \
         same "$board" SIZE=24x24 TABLE_BITS=5 TABLE_LERP=0
-    claim "$board" small_code_draws_the_same \
+    check "$board" small_code_draws_the_same \
         same "$board" SMALL=1 DIAG=1 SIZE=24x24
-    claim "$board" direct_light_alone_is_the_same scene square "$board" \
+    check "$board" direct_light_alone_is_the_same scene square "$board" \
         SMALL=1 DIAG=1 SIZE=24x24 INDIRECT=none BOUNCES=0
     for direct in hemisphere cosine solid-angle mis; do
-        claim "$board" "strategy_${direct}_is_the_same" scene strategies \
+        check "$board" "strategy_${direct}_is_the_same" scene strategies \
             "$board" SIZE=16x16 SPP=1 DIRECT=$direct LIGHTS=uniform \
             INDIRECT=uniform LIGHT_SAMPLES=2
     done
-    claim "$board" pixels_that_end_by_themselves_are_the_same \
+    check "$board" pixels_that_end_by_themselves_are_the_same \
         same "$board" SIZE=16x16 SPP=64 ERROR=0.1
-    claim "$board" stack_stays_within_its_proved_bound stack "$board"
-    claim "$board" ctrl_c_stops_the_picture ctrl_c "$board"
-    claim "$board" panic_is_reported stops "$board" 100 0
-    claim "$board" undefined_instruction_is_reported stops "$board" 101 2
-    claim "$board" status_is_what_the_emulator_exits_with stops "$board" 12 3
+    check "$board" stack_stays_within_its_proved_bound stack "$board"
+    check "$board" ctrl_c_stops_the_picture ctrl_c "$board"
+    check "$board" panic_is_reported stops "$board" 100 0
+    check "$board" undefined_instruction_is_reported stops "$board" 101 2
+    check "$board" status_is_what_the_emulator_exits_with stops "$board" 12 3
 done
 # QEMU lets the other two write outside their memory.
 for board; do
     case $board in
     microbit | sifive_e)
-        claim "$board" stack_overflow_is_reported stops "$board" 101 1 ;;
+        check "$board" stack_overflow_is_reported stops "$board" 101 1 ;;
     esac
 done
 for board; do
     [ "$board" = lm3s6965evb ] || continue
-    claim "$board" panel_shows_the_simulators_greys panel "$board"
-    claim "$board" interlaced_panel_ends_with_the_same \
+    check "$board" panel_shows_the_simulators_greys panel "$board"
+    check "$board" interlaced_panel_ends_with_the_same \
         panel "$board" INTERLACE=16
 done
-exit $failed
+exit $((failures > 0))

@@ -17,17 +17,8 @@ list=$here/gates.txt
 CC=${CC:-cc}
 work=$(mktemp -d) || exit 3
 trap 'rm -rf "$work"' EXIT
-failed=0
-
-claim() # WHAT STATUS NOTE
-{
-    if [ "$2" -eq 0 ]; then
-        printf '%-20s %-52s ok   %s\n' configs/gates "$1" "$3"
-    else
-        printf '%-20s %-52s FAIL %s\n' configs/gates "$1" "$3"
-        failed=1
-    fi
-}
+suite=configs/gates
+. tests/support/claims.sh
 
 cover() # STRENGTH: rows
 {
@@ -95,7 +86,7 @@ fi
 if [ "${1:-}" = --triples ]; then
     cover 3 > "$work/rows"
     covered 3 "$work/rows"
-    claim every_triple_is_in_some_row $? "$note"
+    say every_triple_is_in_some_row $? "$note"
     root=$(pwd)
     count=0
     while read -r row; do
@@ -116,9 +107,9 @@ if [ "${1:-}" = --triples ]; then
         echo "$row"
         head -n 5 "$work/errors"
     done < "$work/rows"
-    claim the_core_builds_without_a_warning_in_every_row "$count" \
+    say the_core_builds_without_a_warning_in_every_row "$count" \
         "$count rows of $(wc -l < "$work/rows") do not"
-    exit $failed
+    exit $((failures > 0))
 fi
 
 awk '/^#ifndef QL_CFG_/ { name = $2 }
@@ -127,7 +118,7 @@ awk '/^#ifndef QL_CFG_/ { name = $2 }
 awk '$1 == "gate" && $2 ~ /^QL_CFG_/ { print $2, $3 }' $list | sort \
     > "$work/listed"
 diff "$work/defined" "$work/listed" >&2 && [ -s "$work/listed" ]
-claim every_gate_is_listed_with_its_default $? "$(wc -l < "$work/listed") gates"
+say every_gate_is_listed_with_its_default $? "$(wc -l < "$work/listed") gates"
 
 # Each combination of the gates that exclude each other, as the list has it.
 awk '
@@ -174,7 +165,7 @@ while read -r verdict flags; do
         echo "$got, not $verdict: $flags" >&2
     fi
 done < "$work/combinations"
-claim what_excludes_what_is_what_ql_config_h_refuses "$count" \
+say what_excludes_what_is_what_ql_config_h_refuses "$count" \
     "$(wc -l < "$work/combinations") combinations, $(grep -c refused "$work/combinations") refused"
 
 count=0
@@ -186,15 +177,15 @@ while read -r gate _; do
         fi
     done
 done < "$work/listed"
-claim values_out_of_range_are_refused_by_an_error "$count" "-1 and 99 of each gate"
+say values_out_of_range_are_refused_by_an_error "$count" "-1 and 99 of each gate"
 
 cover 2 | as_make | cmp - $here/pairs.mk
-claim pairs_mk_is_what_the_list_gives $? "after a change: make configs-update"
+say pairs_mk_is_what_the_list_gives $? "after a change: make configs-update"
 
 configurations > "$work/configurations"
 sed -n 's/^p[0-9]* //p' "$work/configurations" > "$work/rows"
 covered 2 "$work/rows"
-claim every_pair_is_in_some_configuration $? "$note"
+say every_pair_is_in_some_configuration $? "$note"
 
 # With the defaults of what each does not name, and in one order.
 awk '
@@ -227,5 +218,5 @@ awk '
     }' $list "$work/configurations" > "$work/equal"
 cat "$work/equal" >&2
 [ ! -s "$work/equal" ] && [ -s "$work/configurations" ]
-claim no_two_configurations_are_equal $? "$(wc -l < "$work/configurations") configurations"
-exit $failed
+say no_two_configurations_are_equal $? "$(wc -l < "$work/configurations") configurations"
+exit $((failures > 0))

@@ -13,17 +13,9 @@
 set -u
 build=${1:-build}
 work=$build/extreme
-failed=0
+suite=extreme/build
+. tests/support/claims.sh
 mkdir -p "$work" || exit 3
-
-say() { # claim, what it evaluates to, note
-    if [ "$2" -eq 0 ]; then
-        printf '%-20s %-52s ok   %s\n' extreme/build "$1" "${3-}"
-    else
-        printf '%-20s %-52s FAIL %s\n' extreme/build "$1" "${3-}"
-        failed=1
-    fi
-}
 
 # ---- Blobs ----
 
@@ -193,4 +185,4 @@ say case_50_an_empty_scene_is_one_black_pixel $?
 [ $? -eq 1 ]
 say case_50_no_samples_are_refused $?
 
-exit $failed
+exit $((failures > 0))

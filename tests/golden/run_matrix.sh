@@ -18,7 +18,7 @@ out=build/golden
 sums=tests/golden/checksums.txt
 warn='-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef'
 warn="$warn -Wmissing-prototypes -Werror"
-failed=0
+. tests/support/claims.sh
 ran=0
 core=$(ls firmware/*/*.c | grep -v /app/)
 nearest='-DQL_CFG_TABLE_BITS=5 -DQL_CFG_TABLE_LERP=0'
@@ -72,13 +72,11 @@ config()
         if build "$name" "$3" "$4 -DQL_CFG_PRECISION=$number" \
             > "$out/$name.log" 2>&1 &&
             run "$name" "$2" check >> "$out/$name.log" 2>&1; then
-            result='ok'
+            say_as "golden/$name" matches_bit_for_bit ok
         else
-            result="FAIL see $out/$name.log"
-            failed=$((failed + 1))
+            say_as "golden/$name" matches_bit_for_bit FAIL "see $out/$name.log"
+            sed -n '1,12p' "$out/$name.log"
         fi
-        printf '%-20s %-52s %s\n' "golden/$name" matches_bit_for_bit "$result"
-        [ "$result" = ok ] || sed -n '1,12p' "$out/$name.log"
     done
 }
 
@@ -127,15 +125,14 @@ config powerpc-halves qemu-ppc powerpc-linux-gnu-gcc-12 \
 rejects()
 {
     ran=$((ran + 1))
-    result=ok
     awk "$2" "$sums" > "$out/changed.txt"
     # shellcheck disable=SC2086  # a list of scenes
     if "$out/gcc-O2-fine" check "$out/changed.txt" $blobs \
         > "$out/rejects.log" 2>&1; then
-        result="FAIL it passes"
-        failed=$((failed + 1))
+        say_as golden/check "rejects_$1" FAIL "it passes"
+    else
+        say_as golden/check "rejects_$1" ok
     fi
-    printf '%-20s %-52s %s\n' golden/check "rejects_$1" "$result"
 }
 
 if [ -z "$only" ]; then
@@ -145,7 +142,6 @@ if [ -z "$only" ]; then
 fi
 
 if [ "$ran" -eq 0 ]; then
-    echo "golden/matrix has_a_configuration_named_$only FAIL"
-    exit 1
+    say_as golden/matrix "has_a_configuration_named_$only" FAIL
 fi
-[ "$failed" -eq 0 ]
+exit $((failures > 0))

@@ -10,18 +10,9 @@
 # Example: tests/lint/check_docs.sh
 
 set -u
-failed=0
+suite=lint/docs
+. tests/support/claims.sh
 sources=$(git ls-files '*.c' '*.h' 2> /dev/null || find . -name '*.[ch]')
-
-claim()
-{
-    if [ -z "$2" ]; then
-        echo "lint/docs $1 ok"
-    else
-        echo "lint/docs $1 FAIL" $(echo "$2" | head -5)
-        failed=1
-    fi
-}
 
 bad=$(for f in $sources; do
     awk -v f="$f" -v name="$(basename "$f")" '
@@ -30,7 +21,7 @@ bad=$(for f in $sources; do
         FNR == 2 && $0 != "/* SPDX-License-Identifier: MIT */" { print f ":2" }
         FNR == 2 { exit }' "$f"
 done)
-claim every_source_begins_with_its_name_and_one_line "$bad"
+say_none every_source_begins_with_its_name_and_one_line "$bad"
 
 bad=$(for f in $sources; do
     case $f in
@@ -38,11 +29,11 @@ bad=$(for f in $sources; do
     *) awk -v f="$f" 'length($0) > 80 { print f ":" FNR }' "$f" ;;
     esac
 done)
-claim no_line_is_over_80_columns "$bad"
+say_none no_line_is_over_80_columns "$bad"
 
 bad=$(for f in $sources; do basename "$f"; done | sort | uniq -d |
     grep -v '^board\.[ch]$')
-claim base_names_are_unique "$bad"
+say_none base_names_are_unique "$bad"
 
 # Every prototype of the core's headers has a comment before it in which each
 # parameter begins a row of the table (inline one-liners explain themselves).
@@ -75,7 +66,7 @@ bad=$(for f in firmware/*.h firmware/*/*.h hal/ql_hal.h; do
         /^$/ { if (!collecting) comment = "" }
     ' "$f"
 done)
-claim every_parameter_of_a_public_function_is_explained "$bad"
+say_none every_parameter_of_a_public_function_is_explained "$bad"
 
 # File lists between <!-- files DIR... --> and <!-- end --> are generated.
 list_files()
@@ -120,7 +111,7 @@ for doc in $(git ls-files '*.md' 2> /dev/null); do
         fi
     fi
 done
-claim the_file_lists_are_up_to_date "$bad"
+say_none the_file_lists_are_up_to_date "$bad"
 
 # Links to files of the tree lead somewhere.
 bad=$(for doc in $(git ls-files '*.md' 2> /dev/null); do
@@ -130,6 +121,6 @@ bad=$(for doc in $(git ls-files '*.md' 2> /dev/null); do
         [ -e "$dir/$link" ] || echo "$doc: $link"
     done
 done)
-claim links_in_documents_lead_somewhere "$bad"
+say_none links_in_documents_lead_somewhere "$bad"
 
-exit $failed
+exit $((failures > 0))

@@ -7,6 +7,8 @@
 # Example: tests/lint/check_format.sh --write
 
 set -u
+suite=lint/format
+. tests/support/claims.sh
 files=$(git ls-files '*.c' '*.h' 2> /dev/null || find . -name '*.[ch]')
 if [ "${1:-}" = --write ]; then
     clang-format -i $files
@@ -15,8 +17,5 @@ fi
 bad=$(for f in $files; do
     clang-format "$f" | cmp -s - "$f" || echo "$f"
 done)
-if [ -n "$bad" ]; then
-    echo "lint/format every_c_file_is_as_clang_format_leaves_it FAIL" $bad
-    exit 1
-fi
-echo "lint/format every_c_file_is_as_clang_format_leaves_it ok"
+say_none every_c_file_is_as_clang_format_leaves_it "$bad"
+exit "$failures"

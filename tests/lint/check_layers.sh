@@ -12,17 +12,8 @@
 
 set -u
 layers='base math sample warp scene blob trace material light film render app'
-failed=0
-
-claim()
-{
-    if [ -z "$2" ]; then
-        echo "lint/layers $1 ok"
-    else
-        echo "lint/layers $1 FAIL" $2
-        failed=1
-    fi
-}
+suite=lint/layers
+. tests/support/claims.sh
 
 bad=
 for layer in $layers; do
@@ -35,20 +26,20 @@ for layer in $layers; do
     done
 done
 bad=$(echo $bad)
-claim a_layer_includes_only_itself_and_those_before_it "$bad"
+say_none a_layer_includes_only_itself_and_those_before_it "$bad"
 
 bad=$(grep -l '#include "\(ql_hal\|\.\./\|hal/\|sim/\|tools/\)' \
     firmware/*/*.[ch] firmware/ql_config.h firmware/qlux.h |
     grep -v "^firmware/app/ql_app\.")
-claim the_core_never_includes_the_hal "$bad"
+say_none the_core_never_includes_the_hal "$bad"
 
 bad=$(grep -h '#include <' firmware/*.[ch] firmware/*/*.[ch] | sort -u |
     grep -v '<\(stdbool\|stddef\|stdint\|limits\|string\)\.h>')
-claim the_core_includes_only_freestanding_headers "$bad"
+say_none the_core_includes_only_freestanding_headers "$bad"
 
 bad=$(grep -nE '\b(float|double|malloc|calloc|realloc|free)\b' \
     firmware/*.[ch] firmware/*/*.[ch] |
     grep -vE ':[0-9]+:[[:space:]]*(\*|/\*|//)')
-claim the_core_names_no_floating_point_type_and_no_heap "$bad"
+say_none the_core_names_no_floating_point_type_and_no_heap "$bad"
 
-exit $failed
+exit $((failures > 0))

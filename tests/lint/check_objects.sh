@@ -14,17 +14,7 @@ set -u
 out=build/check-objects
 flags='-std=c99 -pedantic -ffreestanding -Wall -Wextra -Wconversion -Wshadow
     -Wundef -Wmissing-prototypes -Werror -O2 -ffunction-sections -Ifirmware -Ihal'
-failed=0
-
-claim()
-{
-    if [ -z "$2" ]; then
-        echo "objects/$1 ok"
-    else
-        echo "objects/$1 FAIL" $(echo "$2" | head -3)
-        failed=1
-    fi
-}
+. tests/support/claims.sh
 
 # name, tool prefix, flags of each CPU the core is built for
 cpus='x86_64|||-m64
@@ -51,13 +41,13 @@ check_cpu()
             log="$log$(${prefix}gcc $flags $options \
                 -DQL_CFG_PRECISION=$precision -c "$source" -o "$object" 2>&1)"
         done
-        label=$([ $precision = 0 ] && echo draft || echo fine)
-        claim "$name-$label the_whole_core_compiles_without_a_warning" "$log"
+        suite=objects/$name-$([ $precision = 0 ] && echo draft || echo fine)
+        say_none the_whole_core_compiles_without_a_warning "$log"
 
         # Floating-point helpers of libgcc, every ABI's spelling, and the heap.
         bad=$(${prefix}nm -u "$dir"/*.o | awk '{ print $NF }' | sort -u |
             grep -E '^(__aeabi_[fd]|__aeabi_[ui]l?2[fd]|__aeabi_cd|__aeabi_cf|__.*(sf|df|xf|tf)[0-9]*$|__(fix|float).*|malloc|calloc|realloc|free|_sbrk|printf|abort)')
-        claim "$name-$label no_float_helper_and_no_heap_is_referenced" "$bad"
+        say_none no_float_helper_and_no_heap_is_referenced "$bad"
 
         bad=$(for object in "$dir"/*.o; do
             ${prefix}objdump -dr "$object" | awk -v object="$(basename "$object")" '
@@ -66,7 +56,7 @@ check_cpu()
                     print object ":" name
                 }'
         done)
-        claim "$name-$label no_64_bit_division_anywhere" "$bad"
+        say_none no_64_bit_division_anywhere "$bad"
     done
 }
 
@@ -82,4 +72,4 @@ for line in $cpus; do
     IFS='
 '
 done
-exit $failed
+exit $((failures > 0))

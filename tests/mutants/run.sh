@@ -23,6 +23,8 @@
 # Example: make test-mutants
 
 set -u
+. tests/support/claims.sh
+columns='%-52s %-34s'
 here=tests/mutants
 list=$here/mutants.txt
 readme=$here/README.md
@@ -39,12 +41,6 @@ precision_of() # CONFIGURATION: as tests/configs
     draft) echo -DQL_CFG_PRECISION=0 ;;
     *) echo -DQL_CFG_PRECISION=1 ;;
     esac
-}
-
-say() # NAME CLAIM ok|FAIL NOTE, in one piece: jobs print side by side
-{
-    line=$(printf '%-52s %-34s %-4s %s' "mutants/$1" "$2" "$3" "${4:-}")
-    printf '%s\n' "$line"
 }
 
 names()
@@ -147,7 +143,7 @@ make_mutant()
     rm -rf "$dir"
     mkdir -p "$dir/$(dirname "${file:-none}")"
     if [ ! -f "$file" ] || ! plant "$1" > "$dir/$file"; then
-        say "$1" is_found_exactly_once FAIL "in ${file:-no file}"
+        say_as "mutants/$1" is_found_exactly_once FAIL "in ${file:-no file}"
         return 1
     fi
     same=1
@@ -156,14 +152,14 @@ make_mutant()
         from=$source
         [ "$source" = "$file" ] && from=$dir/$file
         if ! compile "$build" "$from" "$object" "$dir" 2> "$dir/errors"; then
-            say "$1" compiles FAIL "$(grep error: "$dir/errors" | head -n 1)"
+            say_as "mutants/$1" compiles FAIL "$(grep error: "$dir/errors" | head -n 1)"
             return 1
         fi
         cmp -s "$object" "$work/base/$build/${source%.c}.o"
         [ $? = 1 ] && same=0
     done
     if [ $same = 1 ]; then
-        say "$1" changes_the_code FAIL "the objects are the same"
+        say_as "mutants/$1" changes_the_code FAIL "the objects are the same"
         return 1
     fi
 }
@@ -214,7 +210,7 @@ one()
     make_mutant "$1" || return
     while read -r test claim; do
         if ! lives "$1" "$test" "$claim"; then
-            say "$1" "killed_by_$test" ok "$why"
+            say_as "mutants/$1" "killed_by_$test" ok "$why"
             rm -rf "${work:?}/$1"
             return
         fi
@@ -232,13 +228,13 @@ others()
         if ! lives "$1" "$test"; then
             by=$why
             if passes "build/test/$build" "$work/$1/log" "$test"; then
-                say "$1" "killed_by_$test" ok "$by"
+                say_as "mutants/$1" "killed_by_$test" ok "$by"
                 echo "$1" >> "$work/by_others"
                 return
             fi
         fi
     done
-    say "$1" is_killed FAIL "by no test at all"
+    say_as "mutants/$1" is_killed FAIL "by no test at all"
 }
 
 all_tests() # those of the core, the quick ones first
@@ -256,9 +252,9 @@ base_one()
     log=$work/base/log/$(echo "$1" | tr '/ ' '__')
     set -- $1
     if ! passes "build/test/$1" "$log" "$2" "${3:-}"; then
-        say base "$2" FAIL "fails without any fault: $why"
+        say_as mutants/base "$2" FAIL "fails without any fault: $why"
     elif ! awk '$3 == "ok" { f = 1 } END { exit !f }' "$log"; then
-        say base "$2" FAIL "claims nothing like ${3:-}"
+        say_as mutants/base "$2" FAIL "claims nothing like ${3:-}"
     fi
 }
 
@@ -295,9 +291,9 @@ identity()
     } > "$work/with_none"
     if LIST=$work/with_none WORK=$work "$0" --check-one none_at_all |
         grep -q 'changes_the_code .*FAIL'; then
-        say check a_fault_that_changes_nothing_is_refused ok
+        say_as mutants/check a_fault_that_changes_nothing_is_refused ok
     else
-        say check a_fault_that_changes_nothing_is_refused FAIL
+        say_as mutants/check a_fault_that_changes_nothing_is_refused FAIL
     fi
 }
 
@@ -317,13 +313,13 @@ print_list()
 listed()
 {
     bad=$(names | sort | uniq -d)
-    say list names_are_unique "$([ -z "$bad" ] && echo ok || echo FAIL)" "$bad"
+    say_as mutants/list names_are_unique "$([ -z "$bad" ] && echo ok || echo FAIL)" "$bad"
     print_list > "$work/list"
     if awk '/^\| mutant /{ on = 1 } on && /^\|/' $readme |
         cmp -s - "$work/list"; then
-        say list is_the_table_of_the_readme ok
+        say_as mutants/list is_the_table_of_the_readme ok
     else
-        say list is_the_table_of_the_readme FAIL "see $0 --list"
+        say_as mutants/list is_the_table_of_the_readme FAIL "see $0 --list"
     fi
 }
 
@@ -333,7 +329,7 @@ check()
     identity
     bad=$(names | each --check-one)
     if [ -z "$bad" ]; then
-        say check every_fault_applies_once_compiles_and_changes_the_code ok \
+        say_as mutants/check every_fault_applies_once_compiles_and_changes_the_code ok \
             "$(names | wc -l) mutants"
     else
         echo "$bad"
@@ -362,7 +358,7 @@ run()
     identity
     killers "$@" | each --base > "$work/base/failed"
     cat "$work/base/failed"
-    [ -s "$work/base/failed" ] || say base tests_named_pass_without_a_fault ok \
+    [ -s "$work/base/failed" ] || say_as mutants/base tests_named_pass_without_a_fault ok \
         "$(killers "$@" | wc -l) tests"
     printf '%s\n' "$@" | each --one
     [ -f "$work/lives" ] || return
@@ -372,7 +368,7 @@ run()
     done) > "$work/make.log" 2>&1
     sort "$work/lives" | each --others
     if [ -f "$work/by_others" ]; then
-        say list names_a_test_that_kills_each FAIL \
+        say_as mutants/list names_a_test_that_kills_each FAIL \
             "not $(sort "$work/by_others" | tr '\n' ' ')"
     fi
 }

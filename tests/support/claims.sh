@@ -1,31 +1,30 @@
-# claims.sh - what the tests of programs share; they source it
+# claims.sh - how a script says what holds: a line a claim; scripts source it
 # SPDX-License-Identifier: MIT
 #
-# Before: suite=tools/test_NAME. After: $build holds the programs ($1, or build),
-# the current folder is a new one, removed at the end, and failures is 0.
+# Before: suite=FOLDER/NAME. After: $failures counts the claims that fail; a
+# script ends with exit $((failures > 0)). tests/run.sh counts the same lines.
 
-build=$(cd "${1:-build}" && pwd) || exit 3
-root=$(cd "$(dirname "$0")/../.." && pwd) || exit 3
-work=$(mktemp -d) || exit 3
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 3
 failures=0
+columns='%-20s %-52s' # of suite and claim
 
-say() { # claim, what it evaluates to
+# say_as SUITE CLAIM ok|FAIL [NOTE], in one piece: jobs print side by side
+say_as() {
+    line=$(printf "$columns %-4s %s" "$1" "$2" "$3" "${4-}")
+    printf '%s\n' "$line"
+    [ "$3" = ok ] || failures=$((failures + 1))
+}
+
+# say CLAIM STATUS [NOTE]: it holds if STATUS is 0
+say() {
     if [ "$2" -eq 0 ]; then
-        printf '%-20s %-52s ok\n' "$suite" "$1"
+        say_as "$suite" "$1" ok "${3-}"
     else
-        printf '%-20s %-52s FAIL\n' "$suite" "$1"
-        failures=$((failures + 1))
+        say_as "$suite" "$1" FAIL "${3-}"
     fi
 }
 
-# expect CLAIM CODE TEXT COMMAND...: the exit code, and TEXT in what it prints
-expect() {
-    claim=$1 code=$2 text=$3
-    shift 3
-    "$@" >out.txt 2>&1
-    got=$?
-    grep -q -- "$text" out.txt && [ "$got" -eq "$code" ]
-    say "$claim" $?
+# say_none CLAIM FAULTS: it holds if there are none; else the first are named
+say_none() {
+    [ -z "$2" ]
+    say "$1" $? "$(printf '%s\n' "$2" | head -n 5 | paste -s -d ' ' -)"
 }

@@ -8,7 +8,7 @@
 # Example: tests/tools/test_diff.sh build
 
 suite=tools/test_diff
-. "$(dirname "$0")/../support/claims.sh"
+. tests/support/workspace.sh
 diff=$build/qlux-diff
 sheet=$build/qlux-sheet
 

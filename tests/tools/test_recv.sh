@@ -19,17 +19,8 @@ done
 
 dir=$(mktemp -d) || exit 3
 trap 'rm -rf "$dir"' EXIT
-failed=0
-
-# say CLAIM STATUS: one line a claim.
-say() {
-    if [ "$2" -eq 0 ]; then
-        printf 'tools/test_recv  %-44s ok\n' "$1"
-    else
-        printf 'tools/test_recv  %-44s FAIL\n' "$1"
-        failed=1
-    fi
-}
+suite=tools/test_recv
+. tests/support/claims.sh
 
 # receive WANTED-STATUS: of $dir/s; output in $dir/o.ppm, $dir/out and $dir/err.
 receive() {
@@ -155,4 +146,4 @@ say missing_output_exits_1 $?
 [ $? -eq 3 ]
 say unwritable_output_exits_3 $?
 
-exit $failed
+exit $((failures > 0))

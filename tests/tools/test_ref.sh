@@ -5,37 +5,14 @@
 # Usage: tests/tools/test_ref.sh [BUILD]
 # Example: tests/tools/test_ref.sh build
 
-build=$(cd "${1:-build}" && pwd) || exit 3
-root=$(cd "$(dirname "$0")/../.." && pwd)
-work=$(mktemp -d) || exit 3
-trap 'rm -rf "$work"' EXIT
+suite=tools/test_ref
+. tests/support/workspace.sh
 ref=$build/qlux-ref
-failures=0
 
 for scene in cornell glossy sky; do
     "$build/qlux-scene" "$root/tests/scenes/$scene.scene" \
-        -o "$work/$scene.qlb" >"$work/out.txt" 2>&1 || exit 3
+        -o "$scene.qlb" >out.txt 2>&1 || exit 3
 done
-cd "$work" || exit 3
-
-say() { # claim, what it evaluates to, note
-    if [ "$2" -eq 0 ]; then
-        printf '%-20s %-52s ok   %s\n' tools/test_ref "$1" "${3:-}"
-    else
-        printf '%-20s %-52s FAIL %s\n' tools/test_ref "$1" "${3:-}"
-        failures=$((failures + 1))
-    fi
-}
-
-# expect CLAIM CODE TEXT COMMAND...: the exit code, and TEXT in what it prints
-expect() {
-    claim=$1 code=$2 text=$3
-    shift 3
-    "$@" >out.txt 2>&1
-    got=$?
-    grep -q -- "$text" out.txt && [ "$got" -eq "$code" ]
-    say "$claim" $?
-}
 
 small="--size 20x14 --spp 8 --seed 3 --quiet"
 

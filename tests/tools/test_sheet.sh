@@ -6,7 +6,7 @@
 # Example: tests/tools/test_sheet.sh build
 
 suite=tools/test_sheet
-. "$(dirname "$0")/../support/claims.sh"
+. tests/support/workspace.sh
 sheet=$build/qlux-sheet
 diff=$build/qlux-diff
 

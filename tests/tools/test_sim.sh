@@ -6,7 +6,7 @@
 # Example: tests/tools/test_sim.sh build
 
 suite=tools/test_sim
-. "$(dirname "$0")/../support/claims.sh"
+. tests/support/workspace.sh
 sim=$build/qlux-sim
 merge=$build/qlux-merge
 

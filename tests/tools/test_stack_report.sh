@@ -10,7 +10,8 @@ fi
 
 dir=$(mktemp -d) || exit 3
 trap 'rm -rf "$dir"' EXIT
-failed=0
+suite=tools/test_stack_report
+. tests/support/claims.sh
 cross=arm-none-eabi
 
 # report: the bound of the program on stdin, which starts at ql_cpu_reset().
@@ -24,14 +25,10 @@ report() {
             >"$dir/out" 2>"$dir/err"
 }
 
-say() {
-    if [ "$2" -eq 0 ]; then
-        printf 'tools/test_stack_report  %-44s ok\n' "$1"
-    else
-        printf 'tools/test_stack_report  %-44s FAIL\n' "$1"
-        cat "$dir/out" "$dir/err" >&2
-        failed=1
-    fi
+# check CLAIM STATUS: what the report printed is shown if it does not hold.
+check() {
+    say "$1" "$2"
+    [ "$2" -eq 0 ] || cat "$dir/out" "$dir/err" >&2
 }
 
 # 8 + 64 bytes of locals beside registers; the deeper of two branches counts.
@@ -41,18 +38,18 @@ void leaf(void) { n++; }
 void deep(void) { volatile char a[64]; a[n] = 0; leaf(); }
 void ql_cpu_reset(void) { leaf(); deep(); }
 E2
-say deeper_branch_is_the_bound "$?"
+check deeper_branch_is_the_bound "$?"
 [ "$(cat "$dir/out")" -ge 72 ] && [ "$(cat "$dir/out")" -le 96 ]
-say bound_is_the_sum_of_frames $?
+check bound_is_the_sum_of_frames $?
 
 # The library's 64-bit division pushes registers and calls further.
 report <<'E2'
 volatile unsigned long long n;
 void ql_cpu_reset(void) { n /= 7 + n; }
 E2
-say library_is_read_from_the_disassembly "$?"
+check library_is_read_from_the_disassembly "$?"
 [ "$(cat "$dir/out")" -ge 40 ]
-say library_counts $?
+check library_counts $?
 
 report <<'E2'
 int f(int n) { return n ? f(n - 1) + n : 0; }
@@ -60,14 +57,14 @@ int g(int n) { return n ? f(n) : 1; }
 void ql_cpu_reset(void) { volatile int n = 3; n = g(n); }
 E2
 [ $? -eq 2 ] && grep -q 'recursion through f' "$dir/err"
-say recursion_is_refused $?
+check recursion_is_refused $?
 
 report <<'E2'
 void (*volatile f)(void);
 void ql_cpu_reset(void) { f(); }
 E2
 [ $? -eq 2 ] && grep -q 'a call through a pointer in ql_cpu_reset' "$dir/err"
-say call_through_a_pointer_is_refused $?
+check call_through_a_pointer_is_refused $?
 
 report <<'E2'
 volatile int n;
@@ -75,6 +72,6 @@ void f(int size) { volatile char a[size]; a[n] = 1; }
 void ql_cpu_reset(void) { f(n); }
 E2
 [ $? -eq 2 ] && grep -q 'the stack frame of f has no bound' "$dir/err"
-say frame_without_a_bound_is_refused $?
+check frame_without_a_bound_is_refused $?
 
-exit $failed
+exit $((failures > 0))

@@ -6,7 +6,7 @@
 # Example: tests/tools/test_trade.sh build
 
 suite=tools/test_trade
-. "$(dirname "$0")/../support/claims.sh"
+. tests/support/workspace.sh
 trade=$build/qlux-trade
 make=${MAKE:-make}
 

@@ -6,7 +6,7 @@
 # Example: tests/tools/test_warp.sh build
 
 suite=tools/test_warp
-. "$(dirname "$0")/../support/claims.sh"
+. tests/support/workspace.sh
 warp=$build/qlux-warp
 plots=$root/tools/warp/plots
 

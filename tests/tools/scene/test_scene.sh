@@ -5,24 +5,11 @@
 # Usage: tests/tools/scene/test_scene.sh [BUILD]
 # Example: tests/tools/scene/test_scene.sh build
 
-build=$(cd "${1:-build}" && pwd) || exit 3
-root=$(cd "$(dirname "$0")/../../.." && pwd)
-work=$(mktemp -d) || exit 3
-trap 'rm -rf "$work"' EXIT
+suite=tools/scene
+. tests/support/workspace.sh
 scene=$build/qlux-scene
 scenes=$root/tests/scenes
-failures=0
-cd "$work" || exit 3
 mkdir in
-
-say() { # claim, what it evaluates to
-    if [ "$2" -eq 0 ]; then
-        printf 'tools/scene       %-50s ok\n' "$1"
-    else
-        printf 'tools/scene       %-50s FAIL\n' "$1"
-        failures=$((failures + 1))
-    fi
-}
 
 # Nothing in the folder but the inputs and the logs.
 is_clean() {

@@ -1,4 +1,4 @@
-/* bytes.h - numbers in files: little-endian, and big-endian where PNG wants it */
+/* bytes.h - numbers in files: little-endian ones, and big-endian as in PNG */
 /* SPDX-License-Identifier: MIT */
 
 /* Every function reads or writes exactly the bytes of its number at an address
