@@ -12,7 +12,7 @@
 #include "support/ql_wide.h"
 #include "qlux.h"
 #include "warp/ql_warp.h"
-#include "scene/mesh/build_nodes.h"
+#include "scene/mesh/nodes.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
 #include "trace/ql_tri.h"

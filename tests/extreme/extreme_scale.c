@@ -9,10 +9,8 @@
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "warp/ql_warp.h"
-#include "scene/mesh/build_bvh.h"
-#include "scene/blob/model.h"
-#include "scene/mesh/quantise.h"
 #include "scene/blob/write_blob.h"
+#include "scene/build/compile.h"
 #include "trace/ql_bvh.h"
 
 enum { SIDE = 12, PIXELS = SIDE * SIDE };
@@ -311,11 +309,9 @@ static uint8_t *compile(double size, double distance)
             {{0.1, 1, 0.1}, {0.9, 1, 0.1}, {0.9, 1, 0.9}},
             {{0.1, 1, 0.1}, {0.9, 1, 0.9}, {0.1, 1, 0.9}}};
     static const double towards[3] = {2 / 7.0, 3 / 7.0, 6 / 7.0};
-    static const bvh_cost_t cost = {100, 80};
+    static const compile_options_t options = {16, 4, true};
     world_t w;
     model_t model;
-    grid_t grid;
-    bvh_t bvh;
     uint8_t *blob;
     size_t bytes;
 
@@ -336,15 +332,11 @@ static uint8_t *compile(double size, double distance)
     for (unsigned i = 0; i < 5; i++) {
         add_world_face(&w, faces[i], size, i >= 3);
     }
-    quantise(&grid, &w);
-    build_bvh(&bvh, &grid, 4, &cost, true);
-    model_build(&model, &w, &grid, &bvh, 16);
+    compile_scene(&model, &w, &options);
     blob = write_blob(&model, &bytes);
     CHECK(ql_blob_open(&scene, blob, bytes) == QL_OK, "size %g, distance %g",
             size, distance);
-    bvh_free(&bvh);
     model_free(&model);
-    grid_free(&grid);
     world_free(&w);
     return blob;
 }

@@ -10,10 +10,8 @@
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "warp/ql_warp.h"
-#include "scene/mesh/build_bvh.h"
-#include "scene/blob/model.h"
-#include "scene/mesh/quantise.h"
 #include "scene/blob/write_blob.h"
+#include "scene/build/compile.h"
 #include "trace/ql_bvh.h"
 
 #define RADIANCE 0.5
@@ -225,24 +223,18 @@ static void add_triangle(const double p[3][3])
 /* Compile the world as qlux-scene does, and open it. Triangles it has. */
 static uint32_t compile(unsigned node_bits)
 {
-    static const bvh_cost_t cost = {100, 80};
+    const compile_options_t options = {node_bits, 4, true};
     model_t model;
-    grid_t grid;
-    bvh_t bvh;
     size_t bytes;
     uint32_t count;
 
-    quantise(&grid, &world);
-    build_bvh(&bvh, &grid, 4, &cost, true);
-    depth = bvh.depth;
-    model_build(&model, &world, &grid, &bvh, node_bits);
+    compile_scene(&model, &world, &options);
+    depth = model.header.depth;
     blob = write_blob(&model, &bytes);
     CHECK(ql_blob_open(&scene, blob, bytes) == QL_OK, "the core refuses it");
     CHECK(depth <= QL_DEPTH_MAX, "depth %lu", (unsigned long)depth);
-    count = model.triangle_count;
-    bvh_free(&bvh);
+    count = model.triangles_count;
     model_free(&model);
-    grid_free(&grid);
     return count;
 }
 

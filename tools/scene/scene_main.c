@@ -1,21 +1,31 @@
 /* scene_main.c - qlux-scene: compile scenes into blobs, show blobs */
 /* SPDX-License-Identifier: MIT */
 
+/* The folders beside this file, in the order in which a scene passes through
+ * them; each includes only itself and those before it:
+ *
+ *     world   a scene as its files describe it
+ *     read    texts to a world
+ *     mesh    a world on its grid, smooth corners, the tree
+ *     blob    a model and its bytes, a model and its text
+ *     build   a world on its grid to a model
+ */
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/mesh/build_bvh.h"
 #include "lib/program/cli.h"
 #include "scene/blob/dump_blob.h"
 #include "scene/blob/model.h"
 #include "scene/blob/parse_dump.h"
-#include "scene/mesh/quantise.h"
 #include "scene/blob/read_blob.h"
-#include "scene/read/read_scene.h"
-#include "scene/blob/scene_features.h"
 #include "scene/blob/write_blob.h"
+#include "scene/build/compile.h"
+#include "scene/read/read_scene.h"
+#include "scene/scene_features.h"
+#include "scene/scene_info.h"
 
 static const char help[] =
         "qlux-scene - compile a scene into a blob, show and edit blobs\n"
@@ -45,13 +55,6 @@ typedef struct {
     bool info, dump, quiet;
     bool compiles; /* an option was given that only compiling has */
 } options_t;
-
-/* Costs the tree is built for, in instructions. Measured on the Cornell box and
- * a mesh of 20,492 triangles, counting 35 a box and 80 a triangle: with 16-bit
- * nodes 70 and 100 tie as the fastest and 100 is 9 % smaller; with 8-bit nodes
- * 200 takes 2 % more instructions a path than 100 and 17 % fewer bytes. */
-static const bvh_cost_t cost16 = {100, 80};
-static const bvh_cost_t cost8 = {200, 80};
 
 static const char *next_argument(int *i, int argc, char **argv)
 {
@@ -105,11 +108,11 @@ static void check_options(const options_t *options)
     if (!shows && options->output == NULL) {
         cli_fail(CLI_USAGE, "expected -o OUT.qlb; try --help");
     }
-    if (options->node_bits == 8 && options->leaf_max > MODEL_LEAF8_MAX) {
+    if (options->node_bits == 8 && options->leaf_max > COMPILE_LEAF8_MAX) {
         cli_fail(CLI_USAGE,
                 "--leaf: expected 1 to %d with 8-bit nodes, found "
                 "%u",
-                MODEL_LEAF8_MAX, options->leaf_max);
+                COMPILE_LEAF8_MAX, options->leaf_max);
     }
     if (shows && (options->compiles || options->features != NULL ||
                          (options->info && options->output != NULL))) {
@@ -139,32 +142,14 @@ static options_t parse_options(int argc, char **argv)
     return options;
 }
 
-/* One line about what the grid cost, if it cost anything. */
-static void report_losses(const grid_t *grid)
-{
-    if (grid->flat_count + grid->tiny_count > 0) {
-        fprintf(stderr,
-                "qlux-scene: dropped %zu degenerate faces (%zu as "
-                "written, %zu on the grid)\n",
-                grid->flat_count + grid->tiny_count, grid->flat_count,
-                grid->tiny_count);
-    }
-}
-
 static void compile(model_t *model, text_t *text, const options_t *options)
 {
+    const compile_options_t how = {
+            options->node_bits, options->leaf_max, options->quiet};
     world_t world;
-    grid_t grid;
-    bvh_t bvh;
 
     read_scene(&world, text);
-    quantise(&grid, &world);
-    report_losses(&grid);
-    build_bvh(&bvh, &grid, options->leaf_max,
-            options->node_bits == 16 ? &cost16 : &cost8, options->quiet);
-    model_build(model, &world, &grid, &bvh, options->node_bits);
-    bvh_free(&bvh);
-    grid_free(&grid);
+    compile_scene(model, &world, &how);
     world_free(&world);
 }
 
@@ -179,17 +164,17 @@ static void write_output(const model_t *model, const options_t *options)
     (void)fwrite(blob, 1, size, out.file);
     if (options->features != NULL) {
         cli_out_open(&features, options->features);
-        features_write(features.file, model);
+        write_features(features.file, model);
         cli_out_commit(&features);
     }
     cli_out_commit(&out);
     if (!options->quiet) {
         printf("%s: %" PRIu32 " triangles, ", options->output,
-                model->triangle_count - model->spheres_count);
+                model->triangles_count - model->spheres_count);
         if (model->spheres_count > 0) {
             printf("%" PRIu32 " spheres, ", model->spheres_count);
         }
-        printf("%" PRIu32 " lights, %zu bytes\n", model->light_count, size);
+        printf("%" PRIu32 " lights, %zu bytes\n", model->lights_count, size);
     }
     free(blob);
 }

@@ -594,7 +594,7 @@ expect a_dump_with_a_feature_it_lacks_is_refused 2 'expected lens if and only' \
 expect a_dump_without_the_feature_it_has_is_refused 2 \
     'expected spheres if and only' "$scene" in/d.txt -o out.qlb
 (cat in/c.txt && echo 'da 0 0 0') >in/d.txt
-expect a_quarter_of_a_lens_is_refused 2 'expected pa, pb, da and db' \
+expect a_quarter_of_a_lens_is_refused 2 "expected a 'pa' line" \
     "$scene" in/d.txt -o out.qlb
 (cat in/c.txt && echo 'da 0 0 0' && echo 'da 0 0 0') >in/d.txt
 expect a_lens_line_twice_is_refused 2 "expected one 'da'" \
@@ -633,8 +633,8 @@ needs() {
     say ${1}_needs_its_features_and_no_more $?
 }
 needs cornell 'NODE16 LIGHTS'
-needs glossy 'NODE16 LIGHTS SPHERES PHONG MIRROR GLASS'
-needs sky 'NODE16 LIGHTS SPHERES PHONG SKY SKY_MAP TABLES'
+needs glossy 'NODE16 LIGHTS PHONG MIRROR GLASS SPHERES'
+needs sky 'NODE16 LIGHTS PHONG SPHERES SKY SKY_MAP TABLES'
 needs lens 'NODE16 LIGHTS SPHERES SKY LENS'
 needs smooth 'NODE16 LIGHTS SMOOTH'
 needs wild 'NODE16 LIGHTS TWO_SIDED SMOOTH MIRROR GLASS'

@@ -5,8 +5,8 @@
 
 #include "lib/program/cli.h"
 #include "support/ql_test.h"
-#include "scene/mesh/build_bvh.h"
-#include "scene/mesh/build_nodes.h"
+#include "scene/mesh/bvh.h"
+#include "scene/mesh/nodes.h"
 
 static uint64_t state = 1;
 
@@ -172,7 +172,7 @@ static uint32_t check_tree(const grid_t *grid, unsigned leaf_max)
     walker_t w = {0};
     bvh_t bvh;
 
-    build_bvh(&bvh, grid, leaf_max, &cost, true);
+    bvh_build(&bvh, grid, leaf_max, &cost, true);
     w.grid = grid;
     w.bvh = &bvh;
     w.leaf_max = leaf_max;

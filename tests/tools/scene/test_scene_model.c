@@ -4,27 +4,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "lib/program/cli.h"
-#include "blob/ql_blob_open.h"
-#include "support/ql_test.h"
-#include "scene/build/build_camera.h"
 #include "lib/math/build_cdf.h"
-#include "scene/blob/model.h"
-#include "scene/blob/read_blob.h"
-#include "scene/blob/write_blob.h"
+#include "lib/program/cli.h"
+#include "scene/build/build_camera.h"
+#include "tools/scene/scene_worlds.h"
 
 #define PI 3.14159265358979323846
-
-static uint64_t state = 1;
-
-static uint64_t next(void)
-{
-    uint64_t z = (state += 0x9e3779b97f4a7c15u);
-
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
 
 /* ---- distributions ---- */
 
@@ -118,59 +103,15 @@ TEST(weights_are_one_over_two_pi_p)
 
 /* ---- scenes made here ---- */
 
-static void add_triangle(world_t *world, const double corners[3][3])
-{
-    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}};
-
-    for (int i = 0; i < 3; i++) {
-        face.vertex[i] = (uint32_t)world_add_vertex(world, corners[i]);
-    }
-    world_add_face(world, &face);
-}
-
-static void world_open(world_t *world)
-{
-    static const world_camera_t camera = {
-            {0.5, 0.5, 3}, {0.5, 0.5, 0}, {0, 1, 0}, 40};
-
-    memset(world, 0, sizeof *world);
-    world->camera = camera;
-    world->width = world->height = 64;
-    (void)world_add_material(world, "m", 1);
-}
-
-static void build(model_t *model, grid_t *grid, const world_t *world)
-{
-    static const bvh_cost_t cost = {100, 80};
-    bvh_t bvh;
-
-    quantise(grid, world);
-    build_bvh(&bvh, grid, 4, &cost, true);
-    model_build(model, world, grid, &bvh, 16);
-    bvh_free(&bvh);
-}
-
-/* The core accepts the blob. */
-static void check_opens(const model_t *model)
-{
-    size_t size;
-    uint8_t *blob = write_blob(model, &size);
-    ql_scene_t scene;
-    const ql_status_t status = ql_blob_open(&scene, blob, size);
-
-    CHECK(status == QL_OK, "ql_blob_open: %s", ql_status_text(status));
-    free(blob);
-}
-
 /* A triangle whose corner i is a random point of the unit cube to a power. */
 static void add_random(world_t *world, double power)
 {
     double corners[3][3];
 
     for (int i = 0; i < 9; i++) {
-        corners[i / 3][i % 3] = pow((double)(next() >> 11) * 0x1p-53, power);
+        corners[i / 3][i % 3] = pow(uniform(), power);
     }
-    add_triangle(world, (const double(*)[3])corners);
+    add_triangle(world, (const double(*)[3])corners, NULL);
 }
 
 /* ---- triangles ---- */
@@ -207,19 +148,17 @@ TEST(inv_n_is_rounded_to_nearest)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     for (int i = 0; i < 20000; i++) {
         add_random(&world, 1 + i % 8);
     }
     build(&model, &grid, &world);
     check_opens(&model);
-    for (uint32_t t = 0; t < model.triangle_count; t++) {
+    for (uint32_t t = 0; t < model.triangles_count; t++) {
         check_inverse(&model, t);
     }
-    NOTE("%lu triangles", (unsigned long)model.triangle_count);
-    model_free(&model);
-    grid_free(&grid);
-    world_free(&world);
+    NOTE("%lu triangles", (unsigned long)model.triangles_count);
+    close_all(&model, &grid, &world);
 }
 
 TEST(the_largest_and_the_smallest_triangle_have_an_inv_n)
@@ -232,20 +171,18 @@ TEST(the_largest_and_the_smallest_triangle_have_an_inv_n)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     for (int i = 0; i < 3; i++) {
-        add_triangle(&world, corners[i]);
+        add_triangle(&world, corners[i], NULL);
     }
     build(&model, &grid, &world);
     check_opens(&model);
-    CHECK(model.triangle_count == 3, "%lu",
-            (unsigned long)model.triangle_count);
-    for (uint32_t t = 0; t < model.triangle_count; t++) {
+    CHECK(model.triangles_count == 3, "%lu",
+            (unsigned long)model.triangles_count);
+    for (uint32_t t = 0; t < model.triangles_count; t++) {
         check_inverse(&model, t);
     }
-    model_free(&model);
-    grid_free(&grid);
-    world_free(&world);
+    close_all(&model, &grid, &world);
 }
 
 /* ---- pages ---- */
@@ -259,18 +196,18 @@ static void check_pages(const world_t *world, uint32_t vertices_least)
     check_opens(&model);
     CHECK((model.header.features & QL_FEATURE_PAGES) != 0, "features %lx",
             (unsigned long)model.header.features);
-    CHECK(model.triangle_count > 65500, "%lu triangles",
-            (unsigned long)model.triangle_count);
-    CHECK(model.vertex_count > vertices_least, "%lu vertices",
-            (unsigned long)model.vertex_count);
-    for (uint32_t t = 0; t < model.triangle_count; t++) {
+    CHECK(model.triangles_count > 65500, "%lu triangles",
+            (unsigned long)model.triangles_count);
+    CHECK(model.vertices_count > vertices_least, "%lu vertices",
+            (unsigned long)model.vertices_count);
+    for (uint32_t t = 0; t < model.triangles_count; t++) {
         for (int i = 0; i < 3; i++) {
             CHECK(model.triangles[t].vertex[i] != 65535, "triangle %lu",
                     (unsigned long)t);
         }
         check_inverse(&model, t); /* the right corners, by their normal */
     }
-    NOTE("%lu vertices", (unsigned long)model.vertex_count);
+    NOTE("%lu vertices", (unsigned long)model.vertices_count);
     model_free(&model);
     grid_free(&grid);
 }
@@ -279,7 +216,7 @@ TEST(more_than_65535_vertices_use_pages)
 {
     world_t world;
 
-    world_open(&world);
+    open_world(&world);
     for (int i = 0; i < 65535; i++) {
         add_random(&world, 1);
     }
@@ -302,16 +239,16 @@ static void check_grid(double scale, double move)
     world_t world;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     for (int t = 0; t < 2; t++) {
         double p[3][3];
 
         for (int i = 0; i < 9; i++) {
             p[i / 3][i % 3] = corners[t][i / 3][i % 3] * scale + move;
         }
-        add_triangle(&world, (const double(*)[3])p);
+        add_triangle(&world, (const double(*)[3])p, NULL);
     }
-    quantise(&grid, &world);
+    grid_round(&grid, &world);
     for (int i = 0; i < 18; i++) {
         const uint16_t got =
                 grid.vertices[grid.faces[i / 9].vertex[i / 3 % 3]][i % 3];
@@ -400,11 +337,11 @@ static void check_view(double ex, double ey, double ez, double fov, bool far)
     world_t world;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     world.camera = camera;
-    add_triangle(&world, corners[0]);
-    add_triangle(&world, corners[1]);
-    quantise(&grid, &world);
+    add_triangle(&world, corners[0], NULL);
+    add_triangle(&world, corners[1], NULL);
+    grid_round(&grid, &world);
     build_camera(&c, &lens, &world, &grid);
     for (int k = 0; k < 3; k++) {
         axes[2][k] = camera.look[k] - camera.eye[k];
@@ -520,12 +457,12 @@ static void check_lens(double near, double fov, double radius, double focus)
     world_t world;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     world.camera = camera;
     world.lens.radius = radius;
     world.lens.focus = focus;
-    add_triangle(&world, corners);
-    quantise(&grid, &world);
+    add_triangle(&world, corners, NULL);
+    grid_round(&grid, &world);
     build_camera(&c, &lens, &world, &grid);
     CHECK((near > 0.01) == (wide(c.pr[0]) != 0), "near %g", near);
     check_lens_bounds(&c, &lens);
@@ -557,16 +494,14 @@ TEST(empty_scenes_open)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     build(&model, &grid, &world);
     check_opens(&model);
-    CHECK(model.header.root_meta == 3 && model.triangle_count == 0 &&
-                    model.light_count == 0,
+    CHECK(model.header.root_meta == 3 && model.triangles_count == 0 &&
+                    model.lights_count == 0,
             "root %d", model.header.root_meta);
     CHECK((model.header.features & QL_FEATURE_LIGHTS) == 0, "lights");
-    model_free(&model);
-    grid_free(&grid);
-    world_free(&world);
+    close_all(&model, &grid, &world);
 }
 
 TEST(faint_emission_does_not_vanish)
@@ -577,12 +512,12 @@ TEST(faint_emission_does_not_vanish)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     (void)world_add_material(&world, "bright", 6);
     world.materials[0].ke[1] = 1e-15;
     world.materials[1].ke[0] = 1024;
-    add_triangle(&world, corners);
-    add_triangle(&world, other);
+    add_triangle(&world, corners, NULL);
+    add_triangle(&world, other, NULL);
     world.faces[1].material = 1;
     build(&model, &grid, &world);
     check_opens(&model);
@@ -591,11 +526,9 @@ TEST(faint_emission_does_not_vanish)
                     model.materials[1].emission[0] == 0x80000000u,
             "emission %lx, %lx", (unsigned long)model.materials[0].emission[1],
             (unsigned long)model.materials[1].emission[0]);
-    CHECK(model.light_count == 2, "%lu lights",
-            (unsigned long)model.light_count);
-    model_free(&model);
-    grid_free(&grid);
-    world_free(&world);
+    CHECK(model.lights_count == 2, "%lu lights",
+            (unsigned long)model.lights_count);
+    close_all(&model, &grid, &world);
 }
 
 int main(int argc, char **argv)

@@ -5,46 +5,14 @@
 #include <stdlib.h>
 
 #include "lib/program/cli.h"
-#include "blob/ql_blob_open.h"
-#include "support/ql_test.h"
-#include "scene/build/build_gloss.h"
+#include "scene/build/build_materials.h"
 #include "scene/build/build_sky.h"
-#include "scene/blob/model.h"
-#include "scene/blob/read_blob.h"
-#include "scene/blob/write_blob.h"
+#include "scene/world/reflectance.h"
+#include "tools/scene/scene_worlds.h"
 
 #define PI 3.14159265358979323846
 
-static uint64_t state = 1;
-
-static uint64_t next(void)
-{
-    uint64_t z = (state += 0x9e3779b97f4a7c15u);
-
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return z ^ z >> 31;
-}
-
-/* Uniform in [0, 1). */
-static double uniform(void)
-{
-    return (double)(next() >> 11) * 0x1p-53;
-}
-
 /* ---- scenes made here ---- */
-
-static void world_open(world_t *world)
-{
-    static const world_camera_t camera = {
-            {0.5, 0.5, 3}, {0.5, 0.5, 0}, {0, 1, 0}, 40};
-
-    memset(world, 0, sizeof *world);
-    world->path = "test";
-    world->camera = camera;
-    world->width = world->height = 64;
-    (void)world_add_material(world, "m", 1);
-}
 
 /* Look at a point from a distance, along -z. */
 static void aim(world_t *world, const double at[3], double distance)
@@ -61,51 +29,6 @@ static void add_sphere(world_t *world, const double centre[3], double radius)
 
     memcpy(sphere->centre, centre, sizeof sphere->centre);
     sphere->radius = radius;
-}
-
-/* A triangle; normals unless NULL. */
-static void add_triangle(
-        world_t *world, const double corners[3][3], const double normals[3][3])
-{
-    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}};
-
-    for (int i = 0; i < 3; i++) {
-        face.vertex[i] = (uint32_t)world_add_vertex(world, corners[i]);
-        if (normals != NULL) {
-            face.normal[i] = (uint32_t)world_add_normal(world, normals[i]) + 1;
-        }
-    }
-    world_add_face(world, &face);
-}
-
-static void build(model_t *model, grid_t *grid, const world_t *world)
-{
-    static const bvh_cost_t cost = {100, 80};
-    bvh_t bvh;
-
-    quantise(grid, world);
-    build_bvh(&bvh, grid, 4, &cost, true);
-    model_build(model, world, grid, &bvh, 16);
-    bvh_free(&bvh);
-}
-
-/* The core accepts the blob. */
-static void check_opens(const model_t *model)
-{
-    size_t size;
-    uint8_t *blob = write_blob(model, &size);
-    ql_scene_t scene;
-    const ql_status_t status = ql_blob_open(&scene, blob, size);
-
-    CHECK(status == QL_OK, "ql_blob_open: %s", ql_status_text(status));
-    free(blob);
-}
-
-static void close_all(model_t *model, grid_t *grid, world_t *world)
-{
-    model_free(model);
-    grid_free(grid);
-    world_free(world);
 }
 
 /* ---- spheres ---- */
@@ -152,7 +75,7 @@ TEST(spheres_lie_in_the_grid_and_their_boxes_are_tight)
         model_t model;
         grid_t grid;
 
-        world_open(&world);
+        open_world(&world);
         aim(&world, origin, 3 * size);
         for (int i = 0; i < 1 + scene * 5; i++) {
             const double centre[3] = {
@@ -186,7 +109,7 @@ TEST(a_sphere_that_rounding_pushes_out_of_the_grid_shrinks)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     aim(&world, centre, 1000);
     add_triangle(&world, corners, NULL);
     add_sphere(&world, centre, r);
@@ -206,7 +129,7 @@ TEST(a_sphere_alone_fills_the_grid)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     add_sphere(&world, centre, 1e-3);
     aim(&world, centre, 0.01);
     build(&model, &grid, &world);
@@ -215,8 +138,8 @@ TEST(a_sphere_alone_fills_the_grid)
         CHECK(grid.low[k] <= 9 && grid.high[k] >= 32758, "axis %d: %d..%d", k,
                 grid.low[k], grid.high[k]);
     }
-    CHECK(model.triangle_count == 1 && model.triangles[0].inv_n == 0 &&
-                    model.vertex_count == 0 &&
+    CHECK(model.triangles_count == 1 && model.triangles[0].inv_n == 0 &&
+                    model.vertices_count == 0 &&
                     model.header.features ==
                             (QL_FEATURE_NODE16 | QL_FEATURE_SPHERES),
             "features %lx", (unsigned long)model.header.features);
@@ -228,7 +151,7 @@ TEST(a_sphere_alone_fills_the_grid)
 /* Of each light in turn, its probability. */
 static double chance(const model_t *model, uint32_t i)
 {
-    const double end = i + 1 < model->light_count
+    const double end = i + 1 < model->lights_count
                                ? (double)model->lights[i + 1].cum
                                : 0x1p32;
 
@@ -247,7 +170,7 @@ TEST(triangles_spheres_and_sky_are_chosen_by_their_power)
         double power[3] = {0.25 * 3, 4 * PI * 0.01 * 1.5, 0}, sum = 0;
         double box[3] = {1, 0.5, 0.7}, wanted[3];
 
-        world_open(&world);
+        open_world(&world);
         (void)world_add_material(&world, "lamp", 4);
         world.materials[0].ke[0] = world.materials[0].ke[2] = 1.5;
         world.materials[1].ke[1] = 1.5;
@@ -263,12 +186,12 @@ TEST(triangles_spheres_and_sky_are_chosen_by_their_power)
         }
         build(&model, &grid, &world);
         check_opens(&model);
-        CHECK(model.light_count == 2u + (unsigned)order, "%lu lights",
-                (unsigned long)model.light_count);
+        CHECK(model.lights_count == 2u + (unsigned)order, "%lu lights",
+                (unsigned long)model.lights_count);
         for (int i = 0; i < 3; i++) {
             sum += power[i];
         }
-        for (uint32_t i = 0; i < model.light_count; i++) {
+        for (uint32_t i = 0; i < model.lights_count; i++) {
             const uint16_t t = model.lights[i].triangle;
             const int which = t == QL_LIGHT_SKY               ? 2
                               : model.triangles[t].inv_n == 0 ? 1
@@ -291,12 +214,12 @@ TEST(a_sky_may_be_all_there_is)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     world.sky.colour[1] = 3;
     world.two_sided = true;
     build(&model, &grid, &world);
     check_opens(&model);
-    CHECK(model.light_count == 1 && model.lights[0].triangle == QL_LIGHT_SKY &&
+    CHECK(model.lights_count == 1 && model.lights[0].triangle == QL_LIGHT_SKY &&
                     model.header.features ==
                             (QL_FEATURE_NODE16 | QL_FEATURE_LIGHTS |
                                     QL_FEATURE_SKY),
@@ -315,7 +238,7 @@ static void check_gloss(const world_material_t *m)
     ql_blob_gloss_t gloss;
     uint32_t kd[3];
     double most = 0, scale, s = 0, d = 0;
-    const bool beyond = gloss_round(kd, &gloss, m);
+    const bool beyond = build_materials_round(kd, &gloss, m);
 
     for (int k = 0; k < 3; k++) {
         most = fmax(most, m->kd[k] + m->ks[k]);
@@ -361,7 +284,7 @@ TEST(kd_and_ks_never_exceed_1_and_keep_their_ratio)
                       : i % 4 == 2 ? uniform() * pow(2, (int)(next() % 40) - 35)
                                    : uniform();
         }
-        scaled += gloss_excess(&m);
+        scaled += reflectance_is_excess(&m);
         check_gloss(&m);
     }
     CHECK(scaled > 50000 && scaled < 180000, "%lu scaled", scaled);
@@ -372,7 +295,7 @@ TEST(kd_and_ks_never_exceed_1_and_keep_their_ratio)
 
 static void open_map(world_t *world, uint32_t width, uint32_t height)
 {
-    world_open(world);
+    open_world(world);
     world->sky.width = width;
     world->sky.height = height;
     world->sky.map = cli_alloc((size_t)3 * width * height, sizeof(float));
@@ -471,8 +394,9 @@ TEST(a_map_is_sampled_by_radiance_and_solid_angle)
         total += rows[y];
         angle += solid * w;
     }
-    CHECK(fabs(soft_double(sky_mean(&model)) / (total / angle) - 1) < 1e-12,
-            "mean %.15g, exactly %.15g", soft_double(sky_mean(&model)),
+    CHECK(fabs(soft_double(build_sky_mean(&model)) / (total / angle) - 1) <
+                    1e-12,
+            "mean %.15g, exactly %.15g", soft_double(build_sky_mean(&model)),
             total / angle);
     for (uint32_t y = 0; y < h; y++) {
         const uint16_t *row = model.words + h + y * w;
@@ -544,20 +468,21 @@ TEST(normals_are_unit_vectors_on_the_front)
     model_t model;
     grid_t grid;
 
-    world_open(&world);
+    open_world(&world);
     for (int i = 0; i < 4000; i++) {
         add_random(&world, true);
     }
     build(&model, &grid, &world);
     check_opens(&model);
-    CHECK(model.normals_count == model.vertex_count && model.normals_count > 0,
+    CHECK(model.normals_count == model.vertices_count &&
+                    model.normals_count > 0,
             "%lu normals", (unsigned long)model.normals_count);
-    for (uint32_t t = 0; t < model.triangle_count; t++) {
+    for (uint32_t t = 0; t < model.triangles_count; t++) {
         for (int i = 0; i < 3; i++) {
             check_corner(&model, model.triangles + t, i);
         }
     }
-    NOTE("%lu corners", 3 * (unsigned long)model.triangle_count);
+    NOTE("%lu corners", 3 * (unsigned long)model.triangles_count);
     close_all(&model, &grid, &world);
 }
 
@@ -567,7 +492,7 @@ TEST(normals_move_no_corner)
     model_t smooth_model, flat_model;
     grid_t smooth_grid, flat_grid;
 
-    world_open(&smooth);
+    open_world(&smooth);
     for (int i = 0; i < 3000; i++) {
         add_random(&smooth, i % 3 != 0);
         /* share corners: those of three faces before */
@@ -587,10 +512,10 @@ TEST(normals_move_no_corner)
     free(flat.faces);
     check_opens(&smooth_model);
     CHECK(flat_model.normals == NULL &&
-                    flat_model.triangle_count == smooth_model.triangle_count,
-            "%lu and %lu triangles", (unsigned long)flat_model.triangle_count,
-            (unsigned long)smooth_model.triangle_count);
-    for (uint32_t t = 0; t < flat_model.triangle_count; t++) {
+                    flat_model.triangles_count == smooth_model.triangles_count,
+            "%lu and %lu triangles", (unsigned long)flat_model.triangles_count,
+            (unsigned long)smooth_model.triangles_count);
+    for (uint32_t t = 0; t < flat_model.triangles_count; t++) {
         const ql_blob_tri_t *a = smooth_model.triangles + t;
         const ql_blob_tri_t *b = flat_model.triangles + t;
 
@@ -601,8 +526,8 @@ TEST(normals_move_no_corner)
                     "corner %d of triangle %lu moved", i, (unsigned long)t);
         }
     }
-    NOTE("%lu vertices become %lu", (unsigned long)flat_model.vertex_count,
-            (unsigned long)smooth_model.vertex_count);
+    NOTE("%lu vertices become %lu", (unsigned long)flat_model.vertices_count,
+            (unsigned long)smooth_model.vertices_count);
     model_free(&flat_model);
     grid_free(&flat_grid);
     close_all(&smooth_model, &smooth_grid, &smooth);

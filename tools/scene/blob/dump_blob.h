@@ -1,4 +1,4 @@
-/* dump_blob.h - a blob for people: a summary, or all of it as text */
+/* dump_blob.h - all of a blob as text */
 /* SPDX-License-Identifier: MIT */
 
 #ifndef DUMP_BLOB_H
@@ -10,10 +10,7 @@
 
 #define DUMP_FIRST_LINE "qlux-dump 1"
 
-/* Lines of "key: value". */
-void print_info(FILE *file, const model_t *model);
-
-/* Every number of the blob as text: parse_dump() reads it back. */
+/* Write every number of a blob as text: parse_dump() reads it back. */
 void dump_blob(FILE *file, const model_t *model);
 
 #endif

@@ -5,6 +5,7 @@
 #define ADD_TABLE_H
 
 #include "scene/blob/model.h"
+#include "scene/world/world.h"
 
 /* Append a distribution to the tables of a model.
  *

@@ -5,6 +5,8 @@
 #define BUILD_CAMERA_H
 
 #include "scene/blob/model.h"
+#include "scene/mesh/grid.h"
+#include "scene/world/world.h"
 
 /* Fill in a camera and its lens, in host byte order.
  *

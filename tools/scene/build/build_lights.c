@@ -54,7 +54,7 @@ static u128_t power_of_sky(const model_t *model, const grid_t *grid)
     }
     square = square > 0 ? square : 1; /* nothing to shine on */
     area = soft_mul(soft_int(square, 1 + 32), soft_pi());
-    return soft_floor(soft_mul(area, sky_mean(model)));
+    return soft_floor(soft_mul(area, build_sky_mean(model)));
 }
 
 static u128_t power_of(const model_t *model, const grid_t *grid,
@@ -68,13 +68,13 @@ static u128_t power_of(const model_t *model, const grid_t *grid,
 
 static void choose_by(model_t *model, const u128_t *power)
 {
-    uint64_t *shares = cli_alloc(model->light_count, sizeof *shares);
+    uint64_t *shares = cli_alloc(model->lights_count, sizeof *shares);
     uint64_t sum = 0;
 
-    if (model->light_count > 0) {
-        cdf_shares(shares, power, model->light_count);
+    if (model->lights_count > 0) {
+        cdf_shares(shares, power, model->lights_count);
     }
-    for (uint32_t i = 0; i < model->light_count; i++) {
+    for (uint32_t i = 0; i < model->lights_count; i++) {
         ql_blob_light_t *light = model->lights + i;
 
         light->cum = (uint32_t)sum;
@@ -87,28 +87,28 @@ static void choose_by(model_t *model, const u128_t *power)
 void build_lights(
         model_t *model, const grid_t *grid, const bvh_t *bvh, const char *path)
 {
-    const size_t room = (size_t)model->triangle_count + 1;
+    const size_t room = (size_t)model->triangles_count + 1;
     u128_t *power = cli_alloc(room, sizeof *power);
 
     model->lights = cli_alloc(room, sizeof *model->lights);
-    for (uint32_t i = 0; i < model->triangle_count; i++) {
+    for (uint32_t i = 0; i < model->triangles_count; i++) {
         const uint64_t emission = emission_of(model, i);
 
         if (emission > 0) {
-            power[model->light_count] = power_of(
+            power[model->lights_count] = power_of(
                     model, grid, grid->faces + bvh->order[i], emission);
-            model->lights[model->light_count++].triangle = (uint16_t)i;
+            model->lights[model->lights_count++].triangle = (uint16_t)i;
         }
     }
     if (model->sky_count > 0) {
-        power[model->light_count] = power_of_sky(model, grid);
-        model->lights[model->light_count++].triangle = QL_LIGHT_SKY;
+        power[model->lights_count] = power_of_sky(model, grid);
+        model->lights[model->lights_count++].triangle = QL_LIGHT_SKY;
     }
-    if (model->light_count > QL_LIGHT_MAX) {
+    if (model->lights_count > QL_LIGHT_MAX) {
         cli_fail(CLI_INPUT,
                 "%s: expected %lu lights at most, the sky included, found %lu",
                 path, (unsigned long)QL_LIGHT_MAX,
-                (unsigned long)model->light_count);
+                (unsigned long)model->lights_count);
     }
     choose_by(model, power);
     free(power);

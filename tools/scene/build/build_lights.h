@@ -5,6 +5,8 @@
 #define BUILD_LIGHTS_H
 
 #include "scene/blob/model.h"
+#include "scene/mesh/bvh.h"
+#include "scene/mesh/grid.h"
 
 /* Make every triangle and sphere that emits a light, and the sky the last one.
  * Weights, in one unit: of a triangle twice its area, of a sphere 8 pi R^2,

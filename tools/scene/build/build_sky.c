@@ -11,7 +11,7 @@
 
 enum { TEXEL_BITS = 9, TEXEL_MOST = 511, SCALE_MOST = 23, ROW_BITS = 40 };
 
-soft_t sky_most(const world_sky_t *sky)
+soft_t build_sky_most(const world_sky_t *sky)
 {
     const size_t n =
             sky->map != NULL ? 3 * (size_t)sky->width * sky->height : 0;
@@ -41,8 +41,8 @@ static void texel_channels(ql_blob_texel_t texel, uint32_t channels[3])
     }
 }
 
-/* The largest channel keeps nine bits if it has them; by sky_most() none is
- * above 511 2^23. */
+/* The largest channel keeps nine bits if it has them; none is above 511 2^23,
+ * as build_sky_most() made sure. */
 static ql_blob_texel_t round_texel(const float *rgb, int radiance_exp)
 {
     ql_blob_texel_t texel = {0};
@@ -134,7 +134,7 @@ void build_sky(model_t *model, const world_t *world)
 {
     const int bits = 32 - model->header.radiance_exp;
 
-    if (sky_most(&world->sky).m == 0) {
+    if (build_sky_most(&world->sky).m == 0) {
         return;
     }
     model->sky = cli_alloc(1, sizeof *model->sky);
@@ -147,7 +147,7 @@ void build_sky(model_t *model, const world_t *world)
         const soft_t x = soft_from(world->sky.colour[k]);
         const uint32_t rounded = (uint32_t)soft_round(x, bits);
 
-        /* what shines must not stop to do so; 2^32 cannot be reached */
+        /* what shines must not stop shining; 2^32 cannot be reached */
         model->sky->emission[k] = rounded == 0 && x.m != 0 ? 1 : rounded;
     }
 }
@@ -158,7 +158,7 @@ static soft_t sum_of(const uint32_t channels[3])
             (int64_t)((uint64_t)channels[0] + channels[1] + channels[2]), 0);
 }
 
-soft_t sky_mean(const model_t *model)
+soft_t build_sky_mean(const model_t *model)
 {
     const uint32_t width = model->sky->width, height = model->sky->height;
     soft_t sum = soft_int(0, 0), angle = soft_int(0, 0);

@@ -4,11 +4,13 @@
 #ifndef BUILD_SKY_H
 #define BUILD_SKY_H
 
+#include "lib/math/soft.h"
 #include "scene/blob/model.h"
+#include "scene/world/world.h"
 
 /* The largest radiance of a sky that u0.32 radiance units must reach, a little
  * above that of a map, for whose rounding to nine bits; 0 without a sky. */
-soft_t sky_most(const world_sky_t *sky);
+soft_t build_sky_most(const world_sky_t *sky);
 
 /* Add the sky and what its map needs: texels and, as the last table, their
  * distribution over directions. Nothing for a black sky.
@@ -23,6 +25,6 @@ soft_t sky_most(const world_sky_t *sky);
 void build_sky(model_t *model, const world_t *world);
 
 /* Mean over directions of the sum of channels, radiance units; has a sky. */
-soft_t sky_mean(const model_t *model);
+soft_t build_sky_mean(const model_t *model);
 
 #endif

@@ -7,8 +7,7 @@
 #include <string.h>
 
 #include "lib/program/cli.h"
-
-#define NONE UINT32_MAX
+#include "scene/mesh/triples.h"
 
 static soft_t dot(const soft_t a[3], const soft_t b[3])
 {
@@ -71,7 +70,7 @@ static bool round_normal(const soft_t n[3], int16_t rounded[3])
 }
 
 /* Turn a normal to the front of a face; false if it is in its plane. */
-static bool turn(int16_t normal[3], const int64_t front[3])
+static bool turn_normal(int16_t normal[3], const int64_t front[3])
 {
     int64_t side = 0;
 
@@ -85,7 +84,7 @@ static bool turn(int16_t normal[3], const int64_t front[3])
 }
 
 /* Find the normals of a triangle's corners; false if it is flat. */
-static bool corner_normals(const grid_t *grid, const world_t *world,
+static bool find_normals(const grid_t *grid, const world_t *world,
         const grid_face_t *face, int16_t normals[3][3])
 {
     const world_face_t *from = world->faces + face->source;
@@ -106,7 +105,7 @@ static bool corner_normals(const grid_t *grid, const world_t *world,
         for (int k = 0; k < 3; k++) {
             n[k] = soft_from(given[k]);
         }
-        if (!round_normal(n, normals[i]) || !turn(normals[i], front)) {
+        if (!round_normal(n, normals[i]) || !turn_normal(normals[i], front)) {
             return false;
         }
         curved = curved || !is_parallel(n, own);
@@ -116,19 +115,11 @@ static bool corner_normals(const grid_t *grid, const world_t *world,
 
 /* ---- vertices with normals ---- */
 
-/* Vertices that have a normal, by place and normal: open addressing, at most
- * half full. */
-typedef struct {
-    grid_t *grid;
-    uint32_t *slots;
-    size_t mask;
-} splitter_t;
-
-static void splitter_open(splitter_t *s, grid_t *grid, size_t corners)
+/* Make room for normals and for as many more vertices. */
+static void make_room(grid_t *grid, size_t corners)
 {
     const size_t room = grid->vertex_count + corners;
     uint16_t(*vertices)[3] = cli_alloc(room, sizeof *vertices);
-    size_t size = 16;
 
     if (grid->vertex_count > 0) {
         memcpy(vertices, grid->vertices, grid->vertex_count * sizeof *vertices);
@@ -136,55 +127,48 @@ static void splitter_open(splitter_t *s, grid_t *grid, size_t corners)
     free(grid->vertices);
     grid->vertices = vertices;
     grid->normals = cli_alloc(room, sizeof *grid->normals);
-    while (size < 2 * corners) {
-        size *= 2;
-    }
-    s->grid = grid;
-    s->slots = cli_alloc(size, sizeof *s->slots);
-    memset(s->slots, 0xff, size * sizeof *s->slots);
-    s->mask = size - 1;
-}
-
-static size_t hash(uint32_t vertex, const int16_t normal[3])
-{
-    uint64_t key = vertex;
-
-    for (int k = 0; k < 3; k++) {
-        key = (key ^ (uint16_t)normal[k]) * 0x9e3779b97f4a7c15u;
-        key ^= key >> 29;
-    }
-    return (size_t)(key >> 16);
 }
 
 /* The vertex where another is, with a normal; a new one if there is none. */
-static uint32_t split(splitter_t *s, uint32_t vertex, const int16_t normal[3])
+static uint32_t split(triples_t *known, grid_t *grid, uint32_t vertex,
+        const int16_t normal[3])
 {
-    grid_t *grid = s->grid;
-    size_t slot = hash(vertex, normal) & s->mask;
+    const triples_key_t key = {vertex,
+            {(uint16_t)normal[0], (uint16_t)normal[1], (uint16_t)normal[2]}};
+    const uint32_t found = triples_add(known, &key, grid->vertex_count);
 
-    while (s->slots[slot] != NONE) {
-        const uint32_t v = s->slots[slot];
-
-        if (memcmp(grid->vertices[v], grid->vertices[vertex],
-                    sizeof *grid->vertices) == 0 &&
-                memcmp(grid->normals[v], normal, sizeof *grid->normals) == 0) {
-            return v;
-        }
-        slot = (slot + 1) & s->mask;
+    if (found == grid->vertex_count) {
+        memcpy(grid->vertices[found], grid->vertices[vertex],
+                sizeof *grid->vertices);
+        memcpy(grid->normals[found], normal, sizeof *grid->normals);
+        grid->vertex_count++;
     }
-    s->slots[slot] = grid->vertex_count;
-    memcpy(grid->vertices[grid->vertex_count], grid->vertices[vertex],
-            sizeof *grid->vertices);
-    memcpy(grid->normals[grid->vertex_count], normal, sizeof *grid->normals);
-    return grid->vertex_count++;
+    return found;
 }
 
-void smooth(grid_t *grid, const world_t *world)
+/* Replace the corners of smooth faces by vertices with normals. */
+static void split_corners(grid_t *grid, const bool *is_smooth,
+        int16_t (*normals)[3][3], size_t corners)
+{
+    triples_t known;
+
+    make_room(grid, corners);
+    triples_open(&known, corners);
+    for (uint32_t f = 0; f < grid->face_count; f++) {
+        for (int i = 0; i < 3 && is_smooth[f]; i++) {
+            uint32_t *v = grid->faces[f].vertex + i;
+
+            *v = split(&known, grid, *v, normals[f][i]);
+        }
+    }
+    triples_close(&known);
+}
+
+void smooth_corners(grid_t *grid, const world_t *world)
 {
     int16_t(*normals)[3][3];
     bool *is_smooth;
     size_t count = 0;
-    splitter_t s;
 
     if (world->normal_count == 0) {
         return;
@@ -192,19 +176,11 @@ void smooth(grid_t *grid, const world_t *world)
     normals = cli_alloc(grid->face_count, sizeof *normals);
     is_smooth = cli_alloc(grid->face_count, sizeof *is_smooth);
     for (uint32_t f = 0; f < grid->face_count; f++) {
-        is_smooth[f] = corner_normals(grid, world, grid->faces + f, normals[f]);
+        is_smooth[f] = find_normals(grid, world, grid->faces + f, normals[f]);
         count += is_smooth[f];
     }
     if (count > 0) {
-        splitter_open(&s, grid, 3 * count);
-        for (uint32_t f = 0; f < grid->face_count; f++) {
-            for (int i = 0; i < 3 && is_smooth[f]; i++) {
-                uint32_t *v = grid->faces[f].vertex + i;
-
-                *v = split(&s, *v, (const int16_t *)normals[f][i]);
-            }
-        }
-        free(s.slots);
+        split_corners(grid, is_smooth, normals, 3 * count);
     }
     free(is_smooth);
     free(normals);

@@ -4,7 +4,7 @@
 #ifndef SMOOTH_H
 #define SMOOTH_H
 
-#include "scene/mesh/quantise.h"
+#include "scene/mesh/grid.h"
 
 /* Give the corners of smooth triangles their normals.
  *
@@ -18,6 +18,6 @@
  *
  * Error: half of the last bit of s0.15.
  */
-void smooth(grid_t *grid, const world_t *world);
+void smooth_corners(grid_t *grid, const world_t *world);
 
 #endif

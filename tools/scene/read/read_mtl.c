@@ -1,43 +1,22 @@
-/* read_mtl.c - materials from MTL files, and sets of names */
+/* read_mtl.c - materials from MTL files */
 /* SPDX-License-Identifier: MIT */
 
 #include "scene/read/read_mtl.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "lib/program/alloc.h"
-#include "scene/build/build_gloss.h"
+#include "lib/math/soft.h"
 #include "lib/program/cli.h"
+#include "lib/program/names.h"
+#include "scene/ql_blob.h"
 #include "scene/read/text.h"
+#include "scene/world/reflectance.h"
 
 #define NS_MOST  65535
 #define NI_LEAST 0.0625
 #define NI_MOST  64
 #define KS_MOST  1e6 /* Kd + Ks above 1 is scaled */
-
-bool names_add(names_t *set, const char *name)
-{
-    for (size_t i = 0; i < set->count; i++) {
-        if (strcmp(set->names[i], name) == 0) {
-            return false;
-        }
-    }
-    set->names = alloc_grow(
-            set->names, set->count, &set->capacity, sizeof *set->names);
-    set->names[set->count++] = alloc_text(name, strlen(name));
-    return true;
-}
-
-void names_free(names_t *set)
-{
-    for (size_t i = 0; i < set->count; i++) {
-        free(set->names[i]);
-    }
-    free(set->names);
-    memset(set, 0, sizeof *set);
-}
 
 /* What one material says beside its colours; it decides what it becomes. */
 typedef struct {
@@ -85,10 +64,10 @@ static void end_specular(reader_t *reader)
         cli_warn("%s: '%s' has a Ks and no Ns: it is 0", reader->text.path,
                 material->name);
     }
-    if (gloss_excess(material)) {
+    if (reflectance_is_excess(material)) {
         cli_warn("%s: Kd + Ks of '%s' is above 1: both scaled by %.4g",
                 reader->text.path, material->name,
-                soft_double(gloss_scale(material)));
+                soft_double(reflectance_scale(material)));
     }
 }
 

@@ -1,21 +1,10 @@
-/* read_mtl.h - materials from MTL files, and sets of names */
+/* read_mtl.h - materials from MTL files */
 /* SPDX-License-Identifier: MIT */
 
 #ifndef READ_MTL_H
 #define READ_MTL_H
 
-#include "scene/world.h"
-
-/* Names that have been seen. All zero is the empty set. */
-typedef struct {
-    char **names;
-    size_t count, capacity;
-} names_t;
-
-/* Add a name; false if it was there already. */
-bool names_add(names_t *set, const char *name);
-
-void names_free(names_t *set);
+#include "scene/world/world.h"
 
 /* Append the materials of an MTL file to a world. What they become:
  *

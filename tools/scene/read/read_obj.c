@@ -11,6 +11,7 @@
 
 #include "lib/program/alloc.h"
 #include "lib/program/cli.h"
+#include "lib/program/names.h"
 #include "scene/read/read_mtl.h"
 #include "scene/read/text.h"
 

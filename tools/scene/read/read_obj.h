@@ -4,7 +4,7 @@
 #ifndef READ_OBJ_H
 #define READ_OBJ_H
 
-#include "scene/world.h"
+#include "scene/world/world.h"
 
 /* Append a mesh and its materials to a world.
  *

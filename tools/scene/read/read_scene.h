@@ -5,7 +5,7 @@
 #define READ_SCENE_H
 
 #include "scene/read/text.h"
-#include "scene/world.h"
+#include "scene/world/world.h"
 
 /* Read a scene and all the files it names.
  *

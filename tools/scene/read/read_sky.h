@@ -4,7 +4,7 @@
 #ifndef READ_SKY_H
 #define READ_SKY_H
 
-#include "scene/world.h"
+#include "scene/world/world.h"
 
 #define SKY_RADIANCE_MAX 1e18 /* as of a Ke */
 

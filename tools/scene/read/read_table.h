@@ -4,7 +4,7 @@
 #ifndef READ_TABLE_H
 #define READ_TABLE_H
 
-#include "scene/world.h"
+#include "scene/world/world.h"
 
 /* Append the distribution of a text file to a world: "dims D  cells NX [NY
  * [NZ]]", then as many weights, x fastest, lines as they please.

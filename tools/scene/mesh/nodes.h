@@ -1,10 +1,10 @@
-/* build_nodes.h - boxes of the BVH as the blob stores them */
+/* nodes.h - boxes of the BVH as the blob stores them */
 /* SPDX-License-Identifier: MIT */
 
-#ifndef BUILD_NODES_H
-#define BUILD_NODES_H
+#ifndef NODES_H
+#define NODES_H
 
-#include "scene/mesh/build_bvh.h"
+#include "scene/mesh/bvh.h"
 #include "scene/ql_blob.h"
 
 /* One child with an absolute box: the exact one, or a grid unit more on one

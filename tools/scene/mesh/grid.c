@@ -1,14 +1,14 @@
-/* quantise.c - the scene on its integer grid, and what that loses */
+/* grid.c - the scene on its integer grid, and what that loses */
 /* SPDX-License-Identifier: MIT */
 
-#include "scene/mesh/quantise.h"
+#include "scene/mesh/grid.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib/program/cli.h"
 #include "scene/ql_blob.h"
-#include "scene/mesh/smooth.h"
+#include "scene/mesh/triples.h"
 
 #define NONE UINT32_MAX
 
@@ -98,46 +98,22 @@ static void fit_box(grid_t *grid, const world_t *world)
     grid->unit = soft_div(span, soft_int(GRID_HIGH - GRID_LOW, 0));
 }
 
-/* Grid vertices by position: open addressing, at most half full. */
-typedef struct {
-    uint32_t *slots;
-    size_t mask;
-} finder_t;
-
-static void finder_open(finder_t *finder, size_t count)
-{
-    size_t size = 16;
-
-    while (size < 2 * count) {
-        size *= 2;
-    }
-    finder->slots = cli_alloc(size, sizeof *finder->slots);
-    memset(finder->slots, 0xff, size * sizeof *finder->slots);
-    finder->mask = size - 1;
-}
-
 /* The grid vertex at p, a new one if there is none. */
-static uint32_t find_vertex(finder_t *finder, grid_t *grid, const uint16_t p[3])
+static uint32_t find_vertex(
+        triples_t *places, grid_t *grid, const uint16_t p[3])
 {
-    const uint64_t key =
-            (uint64_t)p[0] << 32 | (uint64_t)p[1] << 16 | (uint64_t)p[2];
-    size_t slot = (size_t)(key * 0x9e3779b97f4a7c15u >> 20) & finder->mask;
+    const triples_key_t key = {0, {p[0], p[1], p[2]}};
+    const uint32_t found = triples_add(places, &key, grid->vertex_count);
 
-    while (finder->slots[slot] != NONE) {
-        const uint32_t found = finder->slots[slot];
-
-        if (memcmp(grid->vertices[found], p, 3 * sizeof *p) == 0) {
-            grid->merged_count++;
-            return found;
-        }
-        slot = (slot + 1) & finder->mask;
+    if (found == grid->vertex_count) {
+        memcpy(grid->vertices[grid->vertex_count++], p, 3 * sizeof *p);
+    } else {
+        grid->merged_count++;
     }
-    finder->slots[slot] = grid->vertex_count;
-    memcpy(grid->vertices[grid->vertex_count], p, 3 * sizeof *p);
-    return grid->vertex_count++;
+    return found;
 }
 
-static uint32_t round_vertex(finder_t *finder, grid_t *grid, const double p[3])
+static uint32_t round_vertex(triples_t *places, grid_t *grid, const double p[3])
 {
     uint16_t q[3];
 
@@ -147,7 +123,7 @@ static uint32_t round_vertex(finder_t *finder, grid_t *grid, const double p[3])
         /* inside the box: 0..32751 */
         q[k] = (uint16_t)(GRID_LOW + soft_round(soft_div(x, grid->unit), 0));
     }
-    return find_vertex(finder, grid, q);
+    return find_vertex(places, grid, q);
 }
 
 void grid_normal(const grid_t *grid, const grid_face_t *face, int64_t n[3])
@@ -254,10 +230,10 @@ static void round_sphere(grid_t *grid, const world_t *world, uint32_t index)
 static void round_faces(grid_t *grid, const world_t *world)
 {
     uint32_t *rounded = cli_alloc(world->vertex_count, sizeof *rounded);
-    finder_t finder;
+    triples_t places;
 
     memset(rounded, 0xff, world->vertex_count * sizeof *rounded);
-    finder_open(&finder, world->vertex_count);
+    triples_open(&places, world->vertex_count);
     for (size_t f = 0; f < world->face_count; f++) {
         const world_face_t *from = world->faces + f;
         grid_face_t face;
@@ -273,7 +249,7 @@ static void round_faces(grid_t *grid, const world_t *world)
             const uint32_t v = from->vertex[i];
 
             if (rounded[v] == NONE) {
-                rounded[v] = round_vertex(&finder, grid, world->vertices[v]);
+                rounded[v] = round_vertex(&places, grid, world->vertices[v]);
             }
             face.vertex[i] = rounded[v];
         }
@@ -283,11 +259,11 @@ static void round_faces(grid_t *grid, const world_t *world)
             grid->tiny_count++;
         }
     }
-    free(finder.slots);
+    triples_close(&places);
     free(rounded);
 }
 
-void quantise(grid_t *grid, const world_t *world)
+void grid_round(grid_t *grid, const world_t *world)
 {
     memset(grid, 0, sizeof *grid);
     grid->vertices = cli_alloc(world->vertex_count, sizeof *grid->vertices);
@@ -308,7 +284,6 @@ void quantise(grid_t *grid, const world_t *world)
                 world->path, (unsigned long)QL_TRI_MAX,
                 (unsigned long)grid->face_count);
     }
-    smooth(grid, world);
 }
 
 void grid_free(grid_t *grid)

@@ -1,7 +1,7 @@
-/* build_bvh.c - BVH by full-sweep SAH, of guaranteed depth */
+/* bvh.c - BVH by full-sweep SAH, of guaranteed depth */
 /* SPDX-License-Identifier: MIT */
 
-#include "scene/mesh/build_bvh.h"
+#include "scene/mesh/bvh.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -217,7 +217,7 @@ static void build(builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n,
             levels - 1, depth + 1);
 }
 
-void build_bvh(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
+void bvh_build(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
         const bvh_cost_t *cost, bool quiet)
 {
     const uint32_t n = grid->face_count;

@@ -1,4 +1,4 @@
-/* build_bvh.h - BVH by full-sweep SAH, of guaranteed depth */
+/* bvh.h - BVH by full-sweep SAH, of guaranteed depth */
 /* SPDX-License-Identifier: MIT */
 
 /* Every split between triangles sorted by centroid along each axis is tried and
@@ -7,10 +7,10 @@
  * depth is bounded by construction. All integers: every host builds the same
  * tree. */
 
-#ifndef BUILD_BVH_H
-#define BUILD_BVH_H
+#ifndef BVH_H
+#define BVH_H
 
-#include "scene/mesh/quantise.h"
+#include "scene/mesh/grid.h"
 
 #define BVH_LEAF 3 /* meta of a leaf of n: BVH_LEAF + n */
 
@@ -45,7 +45,7 @@ typedef struct {
  * Exact: no deeper than QL_DEPTH_MAX; links point forward.
  * Cost:  n log n.
  */
-void build_bvh(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
+void bvh_build(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
         const bvh_cost_t *cost, bool quiet);
 
 void bvh_free(bvh_t *bvh);

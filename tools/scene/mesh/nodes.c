@@ -1,7 +1,7 @@
-/* build_nodes.c - boxes of the BVH as the blob stores them */
+/* nodes.c - boxes of the BVH as the blob stores them */
 /* SPDX-License-Identifier: MIT */
 
-#include "scene/mesh/build_nodes.h"
+#include "scene/mesh/nodes.h"
 
 #include <string.h>
 

@@ -1,16 +1,16 @@
-/* quantise.h - the scene on its integer grid, and what that loses */
+/* grid.h - the scene on its integer grid, and what that loses */
 /* SPDX-License-Identifier: MIT */
 
 /* The box of all faces and spheres is scaled so that its longest side goes from
  * GRID_LOW to GRID_HIGH; the others begin at GRID_LOW. The margin leaves room
  * for points that are pushed off a surface. From here on all is integers. */
 
-#ifndef QUANTISE_H
-#define QUANTISE_H
+#ifndef GRID_H
+#define GRID_H
 
 #include "scene/ql_blob.h"
 #include "lib/math/soft.h"
-#include "scene/world.h"
+#include "scene/world/world.h"
 
 #define GRID_LOW  8
 #define GRID_HIGH 32759
@@ -43,12 +43,12 @@ typedef struct {
  *   grid   -  out; grid_free() it
  *   world  -  the scene
  *
- * A vertex with several normals becomes several in one place: see smooth.h.
+ * Nothing is smooth yet: smooth_corners() sees to that.
  *
  * Error: half a unit a coordinate, half of 1/256 a coordinate of a sphere.
  * Fails: exit 2 if more than 65,535 faces remain.
  */
-void quantise(grid_t *grid, const world_t *world);
+void grid_round(grid_t *grid, const world_t *world);
 
 /* The smallest box of grid points around a face. */
 void grid_box(const grid_t *grid, const grid_face_t *face, uint16_t low[3],

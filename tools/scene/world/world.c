@@ -1,7 +1,7 @@
 /* world.c - a scene as its files describe it: reals, any size */
 /* SPDX-License-Identifier: MIT */
 
-#include "scene/world.h"
+#include "scene/world/world.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,0 +1,175 @@
+/* build_materials.c - what surfaces reflect and emit, in fixed point */
+/* SPDX-License-Identifier: MIT */
+
+#include "scene/build/build_materials.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "lib/math/soft.h"
+#include "lib/program/cli.h"
+#include "scene/build/build_sky.h"
+#include "scene/world/reflectance.h"
+
+#define ONE              ((uint32_t)1 << 31) /* u1.31 */
+#define RADIANCE_EXP_MAX 64
+
+/* ---- what one reflects ---- */
+
+/* 0..1 to u1.31. */
+static uint32_t fraction(soft_t x)
+{
+    return (uint32_t)soft_round(x, 31);
+}
+
+static void round_glass(
+        ql_blob_gloss_t *gloss, const world_material_t *material)
+{
+    for (int k = 0; k < 3; k++) {
+        gloss->specular[k] = fraction(soft_from(material->filter[k]));
+    }
+    /* 1/16..64 is 2^12..2^22 */
+    gloss->parameter = (uint32_t)soft_round(soft_from(material->ni), 16);
+    gloss->chance = ONE;
+    gloss->kind = QL_GLOSS_GLASS;
+}
+
+/* s / (d + s) of the sums of channels, to nearest; an end only if it is one. */
+static uint32_t chance_of(const uint32_t albedo[3], const uint32_t specular[3])
+{
+    const uint64_t s = (uint64_t)specular[0] + specular[1] + specular[2];
+    const uint64_t d = (uint64_t)albedo[0] + albedo[1] + albedo[2];
+    /* s, d < 2^33; one bit more than wanted, to round by */
+    const uint64_t q =
+            u128_div(u128_mul(s, (uint64_t)1 << 32), s + d, NULL).low;
+    const uint32_t chance = (uint32_t)((q + 1) >> 1); /* <= 2^31 */
+
+    if (chance == 0 || d == 0) {
+        return d == 0 ? ONE : 1;
+    }
+    return chance == ONE ? ONE - 1 : chance;
+}
+
+bool build_materials_round(uint32_t albedo[3], ql_blob_gloss_t *gloss,
+        const world_material_t *material)
+{
+    const bool beyond = material->kind != 0;
+    const soft_t scale = beyond ? reflectance_scale(material) : soft_int(1, 0);
+
+    memset(gloss, 0, sizeof *gloss);
+    if (material->kind == QL_GLOSS_GLASS) {
+        memset(albedo, 0, 3 * sizeof *albedo);
+        round_glass(gloss, material);
+        return true;
+    }
+    for (int k = 0; k < 3; k++) {
+        albedo[k] = fraction(soft_mul(soft_from(material->kd[k]), scale));
+        if (beyond) {
+            const uint32_t room = ONE - albedo[k];
+            const uint32_t ks =
+                    fraction(soft_mul(soft_from(material->ks[k]), scale));
+
+            gloss->specular[k] = ks < room ? ks : room; /* both rounded up */
+        }
+    }
+    if ((gloss->specular[0] | gloss->specular[1] | gloss->specular[2]) == 0) {
+        return false;
+    }
+    gloss->kind = (uint16_t)material->kind;
+    gloss->chance = chance_of(albedo, gloss->specular);
+    if (material->kind == QL_GLOSS_PHONG) {
+        /* 0..65535 is below 2^32 */
+        gloss->parameter = (uint32_t)soft_round(soft_from(material->ns), 16);
+    }
+    return true;
+}
+
+/* ---- those in use ---- */
+
+/* Smallest exponent for which every Ke and the sky fit u0.32; 0 without any. */
+static int radiance_exponent(const world_t *world, const bool *used)
+{
+    soft_t most = build_sky_most(&world->sky);
+    int e = -RADIANCE_EXP_MAX;
+
+    for (size_t m = 0; m < world->material_count; m++) {
+        for (int k = 0; k < 3 && used[m]; k++) {
+            const soft_t ke = soft_from(world->materials[m].ke[k]);
+
+            most = soft_compare(ke, most) > 0 ? ke : most;
+        }
+    }
+    if (most.m == 0) {
+        return 0;
+    }
+    /* Ke 2^(32 - e) <= 2^32 - 1 */
+    while (soft_compare(most, soft_int(0xffffffff, e - 32)) > 0) {
+        e++;
+    }
+    return e; /* Ke and sky are at most 1e18 < 2^60 */
+}
+
+static void round_emission(uint32_t emission[3],
+        const world_material_t *material, int radiance_exp)
+{
+    for (int k = 0; k < 3; k++) {
+        const soft_t ke = soft_from(material->ke[k]);
+        const int64_t rounded = soft_round(ke, 32 - radiance_exp);
+
+        /* what shines must not stop shining; 2^32 cannot be reached */
+        emission[k] = rounded == 0 && ke.m != 0 ? 1 : (uint32_t)rounded;
+    }
+}
+
+/* Add the materials in use that have gloss, or those that have none, in the
+ * order of their definition. */
+static void place_kind(model_t *model, const world_t *world, const bool *used,
+        uint32_t *place, bool glossy)
+{
+    for (size_t m = 0; m < world->material_count; m++) {
+        ql_blob_material_t material;
+        ql_blob_gloss_t gloss;
+
+        if (!used[m] || build_materials_round(material.albedo, &gloss,
+                                world->materials + m) != glossy) {
+            continue;
+        }
+        round_emission(material.emission, world->materials + m,
+                model->header.radiance_exp);
+        if (glossy) {
+            model->gloss[model->gloss_count++] = gloss;
+        }
+        place[m] = model->materials_count;
+        model->materials[model->materials_count++] = material;
+    }
+}
+
+void build_materials(model_t *model, const world_t *world, const grid_t *grid,
+        const bvh_t *bvh)
+{
+    const size_t count = world->material_count;
+    bool *used = cli_alloc(count, sizeof *used);
+    uint32_t *place = cli_alloc(count, sizeof *place);
+
+    for (uint32_t i = 0; i < grid->face_count; i++) {
+        used[grid->faces[i].material] = true;
+    }
+    model->header.radiance_exp = (int16_t)radiance_exponent(world, used);
+    model->materials = cli_alloc(count, sizeof *model->materials);
+    model->gloss = cli_alloc(count, sizeof *model->gloss);
+    place_kind(model, world, used, place, true);
+    place_kind(model, world, used, place, false);
+    if (model->materials_count > QL_MATERIAL_MAX) {
+        cli_fail(CLI_INPUT, "%s: expected %lu materials at most, found %lu",
+                world->path, (unsigned long)QL_MATERIAL_MAX,
+                (unsigned long)model->materials_count);
+    }
+    for (uint32_t i = 0; i < model->triangles_count; i++) {
+        const uint32_t m = place[grid->faces[bvh->order[i]].material];
+
+        model->triangles[i].material =
+                (uint16_t)(model->triangles[i].material | m);
+    }
+    free(place);
+    free(used);
+}

@@ -1,0 +1,128 @@
+/* scene_info.c - a summary of a blob, line by line */
+/* SPDX-License-Identifier: MIT */
+
+#include "scene/scene_info.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+
+#include "lib/math/soft.h"
+#include "scene/blob/write_blob.h"
+
+static void print_features(FILE *file, uint32_t features)
+{
+#define PRINT_FEATURE(name, bit, text)                                         \
+    if ((features & (uint32_t)name) != 0) {                                    \
+        fprintf(file, " %s", text);                                            \
+    }
+    QL_FEATURE_LIST(PRINT_FEATURE)
+#undef PRINT_FEATURE
+    fputc('\n', file);
+}
+
+/* Leaves of the tree: a binary tree has one more than inner nodes. */
+static uint32_t leaf_count(const model_t *model)
+{
+    return model->triangles_count > 0 ? model_pair_count(model) + 1 : 0;
+}
+
+static void print_sizes(FILE *file, const model_t *model)
+{
+    size_t size;
+
+    free(write_blob(model, &size));
+    fprintf(file, "bytes: %zu\n", size);
+    if (model->triangles_count > 0) {
+        const unsigned long hundredths =
+                (unsigned long)((size * 100 + model->triangles_count / 2) /
+                                model->triangles_count);
+
+        fprintf(file, "bytes-per-triangle: %lu.%02lu\n", hundredths / 100,
+                hundredths % 100);
+    }
+}
+
+static void print_gloss(FILE *file, const model_t *model)
+{
+    uint32_t count[QL_GLOSS_GLASS + 1] = {0};
+
+    for (uint32_t i = 0; i < model->gloss_count; i++) {
+        count[model->gloss[i].kind]++; /* checked when opened */
+    }
+    fprintf(file, "phong-materials: %" PRIu32 "\n", count[QL_GLOSS_PHONG]);
+    fprintf(file, "mirror-materials: %" PRIu32 "\n", count[QL_GLOSS_MIRROR]);
+    fprintf(file, "glass-materials: %" PRIu32 "\n", count[QL_GLOSS_GLASS]);
+}
+
+static void print_sky(FILE *file, const model_t *model)
+{
+    if (model->sky_count == 0) {
+        fputs("sky: none\n", file);
+    } else if (model->sky->width == 0) {
+        fputs("sky: constant\n", file);
+    } else {
+        fprintf(file, "sky: %u %u\n", (unsigned)model->sky->width,
+                (unsigned)model->sky->height);
+    }
+    fprintf(file, "tables: %" PRIu32 "\n", model->tables_count);
+    fprintf(file, "table-words: %" PRIu32 "\n", model->words_count);
+    fprintf(file, "lens: %s\n", model->lens_count > 0 ? "yes" : "no");
+}
+
+/* Vertices that have a normal. */
+static uint32_t smooth_count(const model_t *model)
+{
+    uint32_t count = 0;
+
+    for (uint32_t i = 0; i < model->normals_count; i++) {
+        const int16_t *n = model->normals[i].xyz;
+
+        count += (n[0] | n[1] | n[2]) != 0;
+    }
+    return count;
+}
+
+static void print_lights(FILE *file, const model_t *model)
+{
+    uint32_t emissive = 0;
+
+    for (uint32_t m = 0; m < model->materials_count; m++) {
+        const uint32_t *e = model->materials[m].emission;
+
+        emissive += (e[0] | e[1] | e[2]) != 0;
+    }
+    fprintf(file, "materials: %" PRIu32 "\n", model->materials_count);
+    print_gloss(file, model);
+    fprintf(file, "emissive-materials: %" PRIu32 "\n", emissive);
+    fprintf(file, "lights: %" PRIu32 "\n", model->lights_count);
+    fprintf(file, "radiance-unit: 2^%d\n", model->header.radiance_exp);
+}
+
+void print_info(FILE *file, const model_t *model)
+{
+    const ql_blob_header_t *h = &model->header;
+    const soft_t unit = soft_int(h->unit_m, h->unit_exp);
+    const soft_t half = soft_int(h->unit_m, h->unit_exp - 1);
+
+    fprintf(file, "version: %u\n", (unsigned)h->version);
+    fprintf(file, "triangles: %" PRIu32 "\n",
+            model->triangles_count - model->spheres_count);
+    fprintf(file, "spheres: %" PRIu32 "\n", model->spheres_count);
+    fprintf(file, "vertices: %" PRIu32 "\n", model->vertices_count);
+    fprintf(file, "smooth-vertices: %" PRIu32 "\n", smooth_count(model));
+    fprintf(file, "nodes: %" PRIu32 "\n", 2 * model_pair_count(model) + 1);
+    fprintf(file, "leaves: %" PRIu32 "\n", leaf_count(model));
+    fprintf(file, "depth: %u\n", (unsigned)h->depth);
+    fprintf(file, "node-bits: %u\n", model_node_bits(model));
+    print_lights(file, model);
+    print_sky(file, model);
+    fputs("features:", file);
+    print_features(file, h->features);
+    fprintf(file, "image: %u %u\n", (unsigned)h->image_width,
+            (unsigned)h->image_height);
+    fprintf(file, "exposure: %.8g\n", h->exposure_q8 / 256.0);
+    fprintf(file, "unit: %.9g\n", soft_double(unit));
+    fprintf(file, "rounding: %.3g\n", soft_double(half));
+    print_sizes(file, model);
+    fprintf(file, "crc32: %08" PRIx32 "\n", h->crc32);
+}
