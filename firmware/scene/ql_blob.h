@@ -58,7 +58,7 @@ typedef struct {
 typedef struct {
     uint32_t magic;
     uint16_t version;
-    uint16_t header_bytes; /* of this and the tables of features below */
+    uint16_t header_bytes; /* of this and the optional tables below */
     uint32_t size_bytes;   /* of the whole blob, a multiple of 4 */
     uint32_t crc32;        /* of bytes [16, size_bytes) */
     uint32_t features;     /* QL_FEATURE_ bits */
@@ -79,9 +79,9 @@ typedef struct {
     ql_blob_table_t lights;
 } ql_blob_header_t;
 
-/* Tables of features follow the header, present if any of their features is, in
- * this order: name, entry, features. header_bytes counts them. */
-#define QL_BLOB_MORE_LIST(X)                                                   \
+/* Optional tables follow the header in this order, each if the scene needs any
+ * of its features: name, entry, features. header_bytes counts them. */
+#define QL_BLOB_OPTIONAL_LIST(X)                                               \
     X(normals, ql_blob_normal_t, QL_FEATURE_SMOOTH)                            \
     X(gloss, ql_blob_gloss_t,                                                  \
             QL_FEATURE_PHONG | QL_FEATURE_MIRROR | QL_FEATURE_GLASS)           \
@@ -92,7 +92,7 @@ typedef struct {
     X(words, uint16_t, QL_FEATURE_TABLES)                                      \
     X(lens, ql_blob_lens_t, QL_FEATURE_LENS)
 
-enum { QL_BLOB_MORE_MAX = 8 }; /* entries of that list */
+enum { QL_BLOB_OPTIONAL_MAX = 8 }; /* entries of that list */
 
 /* A pinhole camera: origin and direction are affine in the picture's plane.
  * A point (x, y) of the plane, y up, |y| <= 1 and |x| <= width/height, has

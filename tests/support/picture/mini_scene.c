@@ -838,11 +838,11 @@ static void put_lens(writer_t *w)
     }
 }
 
-/* Which of QL_BLOB_MORE_LIST: the position of its name. */
+/* Which of QL_BLOB_OPTIONAL_LIST: the position of its name. */
 enum {
-#define MORE_INDEX(name, entry, needs) MORE_##name,
-    QL_BLOB_MORE_LIST(MORE_INDEX)
-#undef MORE_INDEX
+#define OPTIONAL_INDEX(name, entry, needs) OPTIONAL_##name,
+    QL_BLOB_OPTIONAL_LIST(OPTIONAL_INDEX)
+#undef OPTIONAL_INDEX
 };
 
 static uint32_t features_of(const mini_scene_t *m, unsigned lights)
@@ -879,7 +879,7 @@ static uint32_t features_of(const mini_scene_t *m, unsigned lights)
 
 /* Where the tables lie, and how many entries they have. */
 typedef struct {
-    uint32_t core[6][2], more[QL_BLOB_MORE_MAX][2];
+    uint32_t core[6][2], optional[QL_BLOB_OPTIONAL_MAX][2];
     uint32_t header_bytes, features;
 } tables_t;
 
@@ -908,9 +908,9 @@ static void put_header(
     for (unsigned i = 0; i < 12; i++) {
         put(w, tables->core[i / 2][i % 2], 4);
     }
-    for (unsigned i = 0; i < 2 * QL_BLOB_MORE_MAX; i++) {
-        if (tables->more[i / 2][0] > 0) { /* it is there */
-            put(w, tables->more[i / 2][i % 2], 4);
+    for (unsigned i = 0; i < 2 * QL_BLOB_OPTIONAL_MAX; i++) {
+        if (tables->optional[i / 2][0] > 0) { /* it is there */
+            put(w, tables->optional[i / 2][i % 2], 4);
         }
     }
 }
@@ -958,7 +958,7 @@ static bool wanted(writer_t *w, tables_t *tables, unsigned i, unsigned needs,
     if ((tables->features & needs) == 0) {
         return false;
     }
-    begin_table(w, tables->more[i], count);
+    begin_table(w, tables->optional[i], count);
     return true;
 }
 
@@ -967,15 +967,17 @@ static void put_more(writer_t *w, tables_t *tables, unsigned gloss)
     const mini_scene_t *const m = w->m;
     const unsigned texels = (unsigned)m->sky_entry.width * m->sky_entry.height;
 
-    if (wanted(w, tables, MORE_normals, QL_FEATURE_SMOOTH, m->vertex_count)) {
+    if (wanted(w, tables, OPTIONAL_normals, QL_FEATURE_SMOOTH,
+                m->vertex_count)) {
         put_normals(w);
     }
-    if (wanted(w, tables, MORE_gloss,
+    if (wanted(w, tables, OPTIONAL_gloss,
                 QL_FEATURE_PHONG | QL_FEATURE_MIRROR | QL_FEATURE_GLASS,
                 gloss)) {
         put_gloss(w, gloss);
     }
-    if (wanted(w, tables, MORE_spheres, QL_FEATURE_SPHERES, m->sphere_count)) {
+    if (wanted(w, tables, OPTIONAL_spheres, QL_FEATURE_SPHERES,
+                m->sphere_count)) {
         for (unsigned i = 0; i < 4 * m->sphere_count; i++) {
             put(w,
                     i % 4 < 3 ? m->spheres[i / 4].centre[i % 4]
@@ -983,15 +985,15 @@ static void put_more(writer_t *w, tables_t *tables, unsigned gloss)
                     4);
         }
     }
-    if (wanted(w, tables, MORE_sky, QL_FEATURE_SKY, 1)) {
+    if (wanted(w, tables, OPTIONAL_sky, QL_FEATURE_SKY, 1)) {
         put_sky(w);
     }
-    if (wanted(w, tables, MORE_texels, QL_FEATURE_SKY_MAP, texels)) {
+    if (wanted(w, tables, OPTIONAL_texels, QL_FEATURE_SKY_MAP, texels)) {
         for (unsigned i = 0; i < texels; i++) {
             put(w, rgb9e5(m->texels[i], m->radiance_exp), 4);
         }
     }
-    if (wanted(w, tables, MORE_tables, QL_FEATURE_TABLES, m->table_count)) {
+    if (wanted(w, tables, OPTIONAL_tables, QL_FEATURE_TABLES, m->table_count)) {
         for (unsigned i = 0; i < m->table_count; i++) {
             put(w, m->tables[i].first, 4);
             for (int k = 0; k < QL_TABLE_DIMS_MAX; k++) {
@@ -1000,12 +1002,12 @@ static void put_more(writer_t *w, tables_t *tables, unsigned gloss)
             put(w, m->tables[i].dims, 2);
         }
     }
-    if (wanted(w, tables, MORE_words, QL_FEATURE_TABLES, m->word_count)) {
+    if (wanted(w, tables, OPTIONAL_words, QL_FEATURE_TABLES, m->word_count)) {
         for (unsigned i = 0; i < m->word_count; i++) {
             put(w, m->words[i], 2);
         }
     }
-    if (wanted(w, tables, MORE_lens, QL_FEATURE_LENS, 1)) {
+    if (wanted(w, tables, OPTIONAL_lens, QL_FEATURE_LENS, 1)) {
         put_lens(w);
     }
 }
@@ -1016,7 +1018,7 @@ static uint32_t header_bytes_of(uint32_t features)
 
 #define ADD_TABLE(name, entry, needs)                                          \
     bytes += features & (needs) ? (uint32_t)sizeof(ql_blob_table_t) : 0;
-    QL_BLOB_MORE_LIST(ADD_TABLE)
+    QL_BLOB_OPTIONAL_LIST(ADD_TABLE)
 #undef ADD_TABLE
     return bytes;
 }

@@ -24,7 +24,7 @@ typedef ql_blob_node16_t blob_pair16_t[2];
     X(pairs8, ql_blob_pair8_t, QL_FEATURE_NODE8)                               \
     X(materials, ql_blob_material_t, 0)                                        \
     X(lights, ql_blob_light_t, 0)                                              \
-    QL_BLOB_MORE_LIST(X)
+    QL_BLOB_OPTIONAL_LIST(X)
 
 enum {
 #define BLOB_TABLE_ENUM(name, type, features) BLOB_TABLE_##name,
