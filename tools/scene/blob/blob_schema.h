@@ -106,7 +106,7 @@ unsigned blob_field_bytes(const blob_field_t *field);
  *   field   -  describes it
  *   from    -  the struct, in the byte order of this machine
  *   i       -  0 to count - 1
- *   return  of S16 its 16 bits; of WIDE and PLACE the second word in bits 32..63
+ *   return  its bits: of WIDE and PLACE the second word is in 32..63
  */
 uint64_t blob_get(const blob_field_t *field, const void *from, unsigned i);
 

@@ -148,11 +148,26 @@ static void read_clamped(
     }
 }
 
-static void read_ke(reader_t *reader)
+static void read_kd(reader_t *reader, const char *key)
+{
+    read_clamped(reader, key, reader->material->kd, 1);
+}
+
+static void read_ks(reader_t *reader, const char *key)
+{
+    read_clamped(reader, key, reader->material->ks, KS_MOST);
+}
+
+static void read_tf(reader_t *reader, const char *key)
+{
+    read_clamped(reader, key, reader->material->filter, 1);
+}
+
+static void read_ke(reader_t *reader, const char *key)
 {
     double *ke = reader->material->ke;
 
-    read_colour(reader, "Ke", ke);
+    read_colour(reader, key, ke);
     for (int k = 0; k < 3; k++) {
         if (ke[k] < 0 || ke[k] > 1e18) {
             text_fail(&reader->text, "expected a Ke from 0 to 1e18, found %g",
@@ -190,57 +205,65 @@ static void read_opacity(reader_t *reader, const char *key)
     }
 }
 
-static void read_exponent(reader_t *reader)
+static void read_exponent(reader_t *reader, const char *key)
 {
     world_material_t *material = reader->material;
     const double ns = text_number(&reader->text, "the exponent Ns");
 
     material->ns = ns < 0 ? 0 : ns > NS_MOST ? NS_MOST : ns;
     if (material->ns != ns) {
-        cli_warn("%s:%u: Ns of '%s' clamped to 0..%d", reader->text.path,
-                reader->text.line, material->name, NS_MOST);
+        cli_warn("%s:%u: %s of '%s' clamped to 0..%d", reader->text.path,
+                reader->text.line, key, material->name, NS_MOST);
     }
     reader->extras.exponent = true;
 }
 
-/* A key beside the colours; false if it is not known. */
-static bool read_property(reader_t *reader, const char *key)
+static void read_index(reader_t *reader, const char *key)
 {
-    text_t *text = &reader->text;
+    (void)key;
+    reader->material->ni =
+            text_number(&reader->text, "the index of refraction Ni");
+    reader->extras.ni_line = reader->text.line;
+}
 
-    if (strcmp(key, "Ns") == 0) {
-        read_exponent(reader);
-    } else if (strcmp(key, "Ni") == 0) {
-        reader->material->ni = text_number(text, "the index of refraction Ni");
-        reader->extras.ni_line = text->line;
-    } else if (strcmp(key, "illum") == 0) {
-        reader->extras.illum =
-                text_integer(text, "the illumination model", 0, 10);
-    } else if (strcmp(key, "d") == 0 || strcmp(key, "Tr") == 0) {
-        read_opacity(reader, key);
-    } else {
-        return false;
-    }
-    return true;
+static void read_illum(reader_t *reader, const char *key)
+{
+    (void)key;
+    reader->extras.illum =
+            text_integer(&reader->text, "the illumination model", 0, 10);
+}
+
+/* Ambient light is what a path tracer computes. */
+static void leave_out(reader_t *reader, const char *key)
+{
+    (void)reader;
+    (void)key;
 }
 
 static void read_key(reader_t *reader, const char *key)
 {
+    static const struct {
+        const char *name;
+        void (*read)(reader_t *, const char *);
+    } keys[] = {{"Kd", read_kd}, {"Ks", read_ks}, {"Tf", read_tf},
+            {"Ke", read_ke}, {"Ns", read_exponent}, {"Ni", read_index},
+            {"illum", read_illum}, {"d", read_opacity}, {"Tr", read_opacity},
+            {"Ka", leave_out}};
+
     if (strcmp(key, "newmtl") == 0) {
         read_newmtl(reader);
-    } else if (reader->material == NULL) {
-        text_fail(&reader->text, "expected newmtl NAME, found '%s'", key);
-    } else if (strcmp(key, "Kd") == 0) {
-        read_clamped(reader, key, reader->material->kd, 1);
-    } else if (strcmp(key, "Ks") == 0) {
-        read_clamped(reader, key, reader->material->ks, KS_MOST);
-    } else if (strcmp(key, "Tf") == 0) {
-        read_clamped(reader, key, reader->material->filter, 1);
-    } else if (strcmp(key, "Ke") == 0) {
-        read_ke(reader);
-    } else if (!read_property(reader, key) && strcmp(key, "Ka") != 0) {
-        report(reader, key);
+        return;
     }
+    if (reader->material == NULL) {
+        text_fail(&reader->text, "expected newmtl NAME, found '%s'", key);
+    }
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        if (strcmp(key, keys[i].name) == 0) {
+            keys[i].read(reader, key);
+            return;
+        }
+    }
+    report(reader, key);
 }
 
 void read_mtl(world_t *world, const char *path)

@@ -260,31 +260,28 @@ static void read_mtllib(reader_t *reader)
     }
 }
 
-static bool is_ignored(const char *key)
+/* A key that is left out says nothing that changes the picture. */
+static void leave_out(reader_t *reader)
 {
-    static const char *const ignored[] = {"vt", "o", "g", "s"};
-
-    for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++) {
-        if (strcmp(key, ignored[i]) == 0) {
-            return true;
-        }
-    }
-    return false;
+    (void)text_rest(&reader->text);
 }
 
 static void read_key(reader_t *reader, const char *key)
 {
-    if (strcmp(key, "v") == 0) {
-        read_vertex(reader);
-    } else if (strcmp(key, "vn") == 0) {
-        read_normal(reader);
-    } else if (strcmp(key, "f") == 0) {
-        read_face(reader);
-    } else if (strcmp(key, "usemtl") == 0) {
-        read_usemtl(reader);
-    } else if (strcmp(key, "mtllib") == 0) {
-        read_mtllib(reader);
-    } else if (!is_ignored(key) && names_add(&reader->reported, key)) {
+    static const struct {
+        const char *name;
+        void (*read)(reader_t *);
+    } keys[] = {{"v", read_vertex}, {"vn", read_normal}, {"f", read_face},
+            {"usemtl", read_usemtl}, {"mtllib", read_mtllib}, {"vt", leave_out},
+            {"o", leave_out}, {"g", leave_out}, {"s", leave_out}};
+
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        if (strcmp(key, keys[i].name) == 0) {
+            keys[i].read(reader);
+            return;
+        }
+    }
+    if (names_add(&reader->reported, key)) {
         cli_warn("%s:%u: '%s' is not modelled", reader->text.path,
                 reader->text.line, key);
     }

@@ -17,39 +17,63 @@
 
 #define EXPOSURE_MAX 64
 
-/* Keys of the language, in the order of the bits of seen. */
-enum {
-    MESH,
-    CAMERA,
-    IMAGE,
-    EXPOSURE,
-    LIGHTS,
-    LENS,
-    SKY,
-    SPHERE,
-    TABLE,
-    KEY_COUNT
-};
-
 #define ROTATE_MAX 1e6 /* degrees */
-
-static const char *const key_names[KEY_COUNT] = {
-        "mesh",
-        "camera",
-        "image",
-        "exposure",
-        "lights",
-        "lens",
-        "sky",
-        "sphere",
-        "table",
-};
 
 static void read_vector(text_t *text, const char *what, double vector[3])
 {
     for (int k = 0; k < 3; k++) {
         vector[k] = text_number(text, what);
     }
+}
+
+/* A value of a line that its name announces. */
+typedef struct {
+    const char *name;
+    double *numbers;
+    int count;
+    const char *what; /* for messages */
+} named_t;
+
+#if defined(__GNUC__)
+__attribute__((noreturn))
+#endif
+static void
+fail_at_name(const text_t *text, const named_t *values, unsigned count,
+        const char *found)
+{
+    char names[80] = "";
+
+    for (unsigned i = 0; i < count; i++) {
+        const size_t length = strlen(names);
+
+        (void)snprintf(names + length, sizeof names - length, "%s%s",
+                i > 0 ? ", " : "", values[i].name);
+    }
+    text_fail(text, "expected each of %s once, found '%s'", names, found);
+}
+
+/* Read names and their values in any order, each at most once; return bits that
+ * say which were there. */
+static unsigned read_named(text_t *text, const named_t *values, unsigned count)
+{
+    unsigned seen = 0;
+    const char *word;
+
+    while ((word = text_word(text)) != NULL) {
+        unsigned i = 0;
+
+        while (i < count && strcmp(word, values[i].name) != 0) {
+            i++;
+        }
+        if (i == count || (seen & 1u << i) != 0) {
+            fail_at_name(text, values, count, word);
+        }
+        seen |= 1u << i;
+        for (int k = 0; k < values[i].count; k++) {
+            values[i].numbers[k] = text_number(text, values[i].what);
+        }
+    }
+    return seen;
 }
 
 /* The squared length of (a - b) x up. */
@@ -103,37 +127,20 @@ static void check_camera(const text_t *text, const world_camera_t *camera)
     }
 }
 
-static void read_camera(text_t *text, world_camera_t *camera)
+static void read_camera(text_t *text, world_t *world)
 {
-    static const char *const names[] = {"eye", "look", "up", "fov"};
-    unsigned seen = 0;
-    const char *word;
+    world_camera_t *camera = &world->camera;
+    const named_t values[] = {{"eye", camera->eye, 3, "three coordinates"},
+            {"look", camera->look, 3, "three coordinates"},
+            {"up", camera->up, 3, "three coordinates"},
+            {"fov", &camera->fov, 1, "the field of view in degrees"}};
+    unsigned seen;
 
+    world->camera_line = text->line;
     camera->up[0] = camera->up[2] = 0;
     camera->up[1] = 1;
-    while ((word = text_word(text)) != NULL) {
-        unsigned i = 0;
-
-        while (i < 4 && strcmp(word, names[i]) != 0) {
-            i++;
-        }
-        if (i == 4 || (seen & 1u << i) != 0) {
-            text_fail(text,
-                    "expected each of eye, look, up, fov once, found "
-                    "'%s'",
-                    word);
-        }
-        seen |= 1u << i;
-        if (i == 3) {
-            camera->fov = text_number(text, "the field of view in degrees");
-        } else {
-            read_vector(text, "three coordinates",
-                    i == 0   ? camera->eye
-                    : i == 1 ? camera->look
-                             : camera->up);
-        }
-    }
-    if ((seen & 1u) == 0 || (seen & 2u) == 0 || (seen & 8u) == 0) {
+    seen = read_named(text, values, 4);
+    if ((seen | 4u) != 15) { /* all but up */
         text_fail(text, "expected camera eye X Y Z look X Y Z [up X Y Z] "
                         "fov DEGREES");
     }
@@ -141,6 +148,12 @@ static void read_camera(text_t *text, world_camera_t *camera)
         text_fail(text, "expected a fov above 0 and below 180 degrees");
     }
     check_camera(text, camera);
+}
+
+static void read_size(text_t *text, world_t *world)
+{
+    world->width = text_integer(text, "the width", 1, QL_IMAGE_MAX);
+    world->height = text_integer(text, "the height", 1, QL_IMAGE_MAX);
 }
 
 static void read_exposure(text_t *text, world_t *world)
@@ -205,22 +218,10 @@ static void read_table_file(text_t *text, world_t *world)
 
 static void read_lens(text_t *text, world_t *world)
 {
-    static const char *const names[] = {"radius", "focus"};
-    double *const values[] = {&world->lens.radius, &world->lens.focus};
-    unsigned seen = 0;
-    const char *word;
+    const named_t values[] = {{"radius", &world->lens.radius, 1, "a length"},
+            {"focus", &world->lens.focus, 1, "a length"}};
 
-    while ((word = text_word(text)) != NULL) {
-        const unsigned i = strcmp(word, names[0]) == 0 ? 0 : 1;
-
-        if (strcmp(word, names[i]) != 0 || (seen & 1u << i) != 0) {
-            text_fail(text, "expected each of radius, focus once, found '%s'",
-                    word);
-        }
-        seen |= 1u << i;
-        *values[i] = text_number(text, "a length");
-    }
-    if (seen != 3) {
+    if (read_named(text, values, 2) != 3) {
         text_fail(text, "expected lens radius R focus DISTANCE");
     }
     if (!(world->lens.radius >= 0 && world->lens.focus > 0)) {
@@ -300,38 +301,45 @@ static void read_sky_line(text_t *text, world_t *world)
     }
 }
 
-static void read_key(text_t *text, world_t *world, int key)
+/* The keys of the language. */
+enum { MESH, CAMERA, KEY_COUNT = 9 };
+
+static const struct {
+    const char *name;
+    void (*read)(text_t *, world_t *);
+    bool repeats; /* a scene may have several */
+} keys[KEY_COUNT] = {
+        [MESH] = {"mesh", read_mesh, true},
+        [CAMERA] = {"camera", read_camera, false},
+        {"image", read_size, false},
+        {"exposure", read_exposure, false},
+        {"lights", read_lights, false},
+        {"lens", read_lens, false},
+        {"sky", read_sky_line, false},
+        {"sphere", read_sphere, true},
+        {"table", read_table_file, true},
+};
+
+/* Read a line; seen has a bit for each key that was there before. */
+static void read_line(text_t *text, world_t *world, unsigned *seen)
 {
-    switch (key) {
-    case MESH:
-        read_mesh(text, world);
-        break;
-    case CAMERA:
-        world->camera_line = text->line;
-        read_camera(text, &world->camera);
-        break;
-    case IMAGE:
-        world->width = text_integer(text, "the width", 1, QL_IMAGE_MAX);
-        world->height = text_integer(text, "the height", 1, QL_IMAGE_MAX);
-        break;
-    case EXPOSURE:
-        read_exposure(text, world);
-        break;
-    case LIGHTS:
-        read_lights(text, world);
-        break;
-    case LENS:
-        read_lens(text, world);
-        break;
-    case SKY:
-        read_sky_line(text, world);
-        break;
-    case SPHERE:
-        read_sphere(text, world);
-        break;
-    default:
-        read_table_file(text, world);
+    const char *word = text_word(text);
+    int key = 0;
+
+    while (key < KEY_COUNT && strcmp(word, keys[key].name) != 0) {
+        key++;
     }
+    if (key == KEY_COUNT) {
+        text_fail(text,
+                "expected mesh, camera, lens, image, sky, sphere, lights, "
+                "exposure or table, found '%s'",
+                word);
+    }
+    if (!keys[key].repeats && (*seen & 1u << key) != 0) {
+        text_fail(text, "expected one '%s' in a scene, found a second", word);
+    }
+    *seen |= 1u << key;
+    keys[key].read(text, world);
     text_finish(text);
 }
 
@@ -367,25 +375,7 @@ void read_scene(world_t *world, text_t *text)
     world->path = text->path;
     world->width = world->height = 256;
     while (text_line(text)) {
-        const char *word = text_word(text);
-        int key = 0;
-
-        while (key < KEY_COUNT && strcmp(word, key_names[key]) != 0) {
-            key++;
-        }
-        if (key == KEY_COUNT) {
-            text_fail(text,
-                    "expected mesh, camera, lens, image, sky, sphere, lights, "
-                    "exposure or table, found '%s'",
-                    word);
-        }
-        if (key != MESH && key != SPHERE && key != TABLE &&
-                (seen & 1u << key) != 0) {
-            text_fail(
-                    text, "expected one '%s' in a scene, found a second", word);
-        }
-        seen |= 1u << key;
-        read_key(text, world, key);
+        read_line(text, world, &seen);
     }
     if ((seen & 1u << CAMERA) == 0) {
         text_fail(text, "expected a 'camera' line before the end of the file");
