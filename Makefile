@@ -1,141 +1,142 @@
 # Makefile - every command; `make help` lists them
+# SPDX-License-Identifier: MIT
 #
-#   make                        simulator, tools and the picture build/cornell.ppm
+#   make                        simulator, tools, the picture build/cornell.ppm
 #   make run SCENE=s            any scene on this PC: build/s.ppm
 #   make run BOARD=b SCENE=s    the same on an emulated board: build/s-b.ppm
 #   make test                   everything
 #
-# SCENE is a name in tests/scenes or the path of any .scene file. The product
-# needs a C99 compiler and make; tools/dev/setup.sh installs what the tests need.
+# SCENE is a name in tests/scenes or the path of any .scene file. SPP=, SIZE=
+# and the like choose the picture; V=1 prints the commands; O=DIR builds in DIR.
+# The product needs a C99 compiler and GNU make 4.0; tools/dev/setup.sh installs
+# what the tests need.
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
+.SUFFIXES:
+MAKEFLAGS += --no-builtin-rules
 
-SCENE ?= cornell
-scene_file := $(if $(filter %.scene,$(SCENE)),$(SCENE),tests/scenes/$(SCENE).scene)
-override SCENE := $(basename $(notdir $(SCENE)))
-
+O ?= build
 CC ?= cc
+AR ?= ar
 CFLAGS ?= -O2 -g
-WARN := -Wall -Wextra -Wconversion -Wshadow -Wundef -Wmissing-prototypes
-HOST := -std=c99 -pedantic $(WARN) $(CFLAGS) -D_POSIX_C_SOURCE=200809L \
-    -Ifirmware -Itools -Ihal -Itests -I.
+# Scripts find the programs by BUILD, and compile with the same warnings.
+export BUILD := $O
+export WARN := -Wall -Wextra -Wconversion -Wshadow -Wundef -Wmissing-prototypes
+HOST = -std=c99 -pedantic $(WARN) $(CPPFLAGS) $(CFLAGS) \
+    -D_POSIX_C_SOURCE=200809L -Ifirmware -Itools -Ihal -Itests -I.
 
-core_src := $(filter-out firmware/app/%,$(wildcard firmware/*/*.c))
-core_hdr := $(wildcard firmware/*.h firmware/*/*.h hal/*.h)
-host_hdr := $(core_hdr) $(wildcard tools/*/*.h tools/*/*/*.h sim/*.h)
-fine := $(core_src:%.c=build/fine/%.o)
-draft := $(core_src:%.c=build/draft/%.o)
-lib_src := $(wildcard tools/lib/*/*.c)
-io := build/host/lib.a
+include tools/dev/rules.mk tools/dev/variables.mk
 
-programs := $(addprefix build/qlux-,scene lut sim sim-draft merge diff sheet recv warp \
-    ref trade)
+core_src := $(sort $(filter-out firmware/app/%,$(wildcard firmware/*/*.c)))
+fine := $(core_src:%.c=$O/fine/%.o)
+draft := $(core_src:%.c=$O/draft/%.o)
+io := $O/host/lib.a
 
-all: $(programs) build/$(SCENE).ppm ## Build everything for this PC, render the Cornell box
+names := scene lut merge diff sheet recv warp ref trade
+programs := $(names:%=$O/qlux-%) $O/qlux-sim $O/qlux-sim-draft
+
+all: ## Build everything for this PC, render the Cornell box
+all: $(programs) $O/$(scene).ppm
+	$(if $(silent),,@echo $O/$(scene).ppm)
 
 tools: $(programs) ## Build the simulator and the tools
 
 help: ## Show this list
 	@awk 'BEGIN { FS = ":.*## " } /^[a-z0-9-]+:.*## / \
 	    { printf "  %-16s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@tools/dev/help.sh
 
 # The core, once for each precision, and everything else of this PC.
 
-build/fine/%.o: %.c $(host_hdr)
-	@mkdir -p $(@D)
-	$(CC) $(HOST) -DQL_CFG_PRECISION=1 -c $< -o $@
+$(call objects,fine,-DQL_CFG_PRECISION=1)
+$(call objects,draft,-DQL_CFG_PRECISION=0)
+$(call objects,host)
+-include $(foreach f,fine draft host,$(call headers_of,$f))
 
-build/draft/%.o: %.c $(host_hdr)
-	@mkdir -p $(@D)
-	$(CC) $(HOST) -DQL_CFG_PRECISION=0 -c $< -o $@
+lib_src := $(sort $(wildcard tools/lib/*/*.c))
+$O/host/lib.a: $(lib_src:%.c=$O/host/%.o) $O/flags/sources
+	$(archive)
+
+# A program is its folder; some have others beside it, or a file that is apart.
+beside_warp := figure
+beside_trade := figure
+apart_trade := tools/trade/trade_error.c
+source_of = $(sort $(filter-out $(apart_$1),$(foreach d,$1 $(beside_$1), \
+    $(wildcard tools/$d/*.c tools/$d/*/*.c))))
+
+define program
+$O/qlux-$1: $(patsubst %.c,$O/host/%.o,$(source_of_$1)) $(io) $(fine) \
+    $O/flags/link $O/flags/sources
+	$$(link)
+endef
+$(foreach n,$(names),$(eval source_of_$n := $(call source_of,$n)))
+$(foreach n,$(names),$(eval $(call program,$n)))
 
 # Other tables of the warps than the tools have: build/qlux-sim-draft-nearest-9.
-TABLE_BITS ?= 7
-TABLE_LERP ?= 1
 tables := $(if $(filter 7-1,$(TABLE_BITS)-$(TABLE_LERP)),,-$(if $(filter \
     0,$(TABLE_LERP)),nearest,lerp)-$(TABLE_BITS))
 ifneq ($(tables),)
-build/fine$(tables)/%.o build/draft$(tables)/%.o: %.c $(host_hdr)
-	@mkdir -p $(@D)
-	$(CC) $(HOST) -DQL_CFG_PRECISION=$(if $(findstring build/fine,$@),1,0) \
-	    -DQL_CFG_TABLE_BITS=$(TABLE_BITS) -DQL_CFG_TABLE_LERP=$(TABLE_LERP) \
-	    -c $< -o $@
+table_flags := -DQL_CFG_TABLE_BITS=$(TABLE_BITS) \
+    -DQL_CFG_TABLE_LERP=$(TABLE_LERP)
+$(call objects,fine$(tables),-DQL_CFG_PRECISION=1 $(table_flags))
+$(call objects,draft$(tables),-DQL_CFG_PRECISION=0 $(table_flags))
+-include $(foreach f,fine draft,$(call headers_of,$f$(tables)))
 endif
 
-build/host/%.o: %.c $(host_hdr)
-	@mkdir -p $(@D)
-	$(CC) $(HOST) -c $< -o $@
+sim_src := $(sort $(filter-out sim/sim_hal.c sim/sim_fault.c, \
+    $(wildcard sim/*.c)))
+sim_of = $(patsubst %.c,$O/$1/%.o,$(sim_src) $(core_src)) $(io) $O/flags/link \
+    $O/flags/sources
 
-build/host/lib.a: $(lib_src:%.c=build/host/%.o)
-	rm -f $@ && ar rcs $@ $^
-
-link = $(CC) $(CFLAGS) $(filter %.o,$^) $(filter %.a,$^) -o $@ -lm
-
-build/qlux-lut: build/host/tools/lut/lut_main.o $(io) $(fine)
+$O/qlux-sim$(tables): $(call sim_of,fine$(tables))
 	$(link)
 
-build/qlux-scene: $(patsubst %.c,build/host/%.o,$(wildcard \
-    tools/scene/*.c tools/scene/*/*.c)) \
-    $(io) $(fine)
+$O/qlux-sim-draft$(tables): $(call sim_of,draft$(tables))
 	$(link)
 
-build/qlux-merge: build/host/tools/merge/merge_main.o $(io) $(fine)
-	$(link)
+$(call flags,link,$(CC) $(CFLAGS) $(LDFLAGS) $(LDLIBS))
+# A source that comes or goes links everything again.
+$(call flags,sources,$(core_src) $(lib_src) $(sim_src) \
+    $(foreach n,$(names),$(source_of_$n)))
 
-build/qlux-diff: $(patsubst %.c,build/host/%.o,$(wildcard tools/diff/*.c)) \
-    $(io) $(fine)
-	$(link)
+# Scenes and pictures. Whoever makes make has BLOB has made it.
 
-build/qlux-sheet: build/host/tools/sheet/sheet_main.o $(io) $(fine)
-	$(link)
+ifeq ($(BLOB),)
+BLOB := $O/$(scene)
+$(call flags,$(scene).qlb,$(call quote,$(scene_file)) $(SCENE_OPTIONS))
+# A pattern of one file makes both at once: % is the dot.
+$O/$(scene)%qlb $O/$(scene)%h: $O/qlux-scene $O/flags/$(scene).qlb \
+    $(scene_newer)
+	$(call step,SCENE,$O/$(scene).qlb)$< $(call quote,$(scene_file)) \
+	    -o $O/$(scene).qlb --features $O/$(scene).h $(SCENE_OPTIONS) \
+	    $(if $(verbose),,--quiet)
+endif
 
-build/qlux-recv: build/host/tools/recv/recv_main.o $(io) $(fine)
-	$(link)
+simulator := $O/qlux-sim$(if $(filter draft,$(PRECISION)),-draft)$(tables)
+sim = $(simulator) $(BLOB).qlb -o $@ $(sim_options) $(SIM_OPTIONS) $(quiet)
+$(call flags,$(scene).ppm,$(simulator) $(sim_options) $(SIM_OPTIONS))
 
-build/qlux-warp: $(patsubst %.c,build/host/%.o,$(wildcard tools/warp/*.c \
-    tools/figure/*.c)) $(io) $(fine)
-	$(link)
+$O/$(scene).ppm: $(simulator) $(BLOB).qlb $O/flags/$(scene).ppm \
+    $(if $(filter run run-pc,$(MAKECMDGOALS)),FORCE)
+	$(call step,RENDER,$@)$(sim)
 
-build/qlux-ref: $(patsubst %.c,build/host/%.o,$(wildcard tools/ref/*.c)) $(io) $(fine)
-	$(link) -lpthread
+run: ## Render SCENE here, or on an emulated BOARD
+run: $(if $(BOARD),run-board,run-pc)
 
-sim := sim/sim_main.o sim/sim_render.o
+run-pc: $O/$(scene).ppm
+	$(if $(silent),,@echo $<)
 
-build/qlux-sim$(tables): $(sim:%=build/fine$(tables)/%) $(io) \
-    $(core_src:%.c=build/fine$(tables)/%.o)
-	$(link) -lpthread
+luts: $O/qlux-lut ## Regenerate the core's tables
+	$(call step,LUT,firmware/math/ql_lut_data.c)$< -o firmware/math/ql_lut_data.c
 
-build/qlux-sim-draft$(tables): $(sim:%=build/draft$(tables)/%) $(io) \
-    $(core_src:%.c=build/draft$(tables)/%.o)
-	$(link) -lpthread
-
-# Scenes and pictures.
-
-BLOB ?= build/$(SCENE)
-
-$(BLOB).qlb $(BLOB).h &: $(scene_file) build/qlux-scene \
-    $(foreach e,obj mtl pfm txt,$(wildcard $(dir $(scene_file))*.$(e)))
-	build/qlux-scene $< -o $(BLOB).qlb --features $(BLOB).h $(SCENE_OPTIONS)
-
-build/$(SCENE).ppm: build/qlux-sim build/$(SCENE).qlb
-	build/qlux-sim build/$(SCENE).qlb -o $@ --spp 64
-
-run: $(if $(BOARD),run-board,run-pc) ## Render SCENE here, or on an emulated BOARD
-
-run-pc: build/qlux-sim build/$(SCENE).qlb
-	build/qlux-sim build/$(SCENE).qlb -o build/$(SCENE).ppm $(SIM_OPTIONS)
-
-luts: build/qlux-lut ## Regenerate the core's tables
-	build/qlux-lut -o firmware/math/ql_lut_data.c
-
-warp-plots: build/qlux-warp ## Draw the warps of tools/README.md: build/warp-*.svg
-	for m in 1 2 8 16; do build/qlux-warp plot cosine-power -m $$m \
-	    -o build/warp-cosine-power-$$m.svg || exit; done
-	build/qlux-warp plot naive-hemisphere -o build/warp-naive-hemisphere.svg
+warp-plots: $O/qlux-warp ## Draw the warps of tools/README.md: build/warp-*.svg
+	@for m in 1 2 8 16; do $< plot cosine-power -m $$m \
+	    -o $O/warp-cosine-power-$$m.svg || exit; done
+	@$< plot naive-hemisphere -o $O/warp-naive-hemisphere.svg
 
 clean: ## Remove build/
-	rm -rf build
+	rm -rf $O
 
 include hal/boards.mk tools/trade/trade.mk
 include tests/tests.mk tests/bench/bench.mk

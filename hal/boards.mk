@@ -1,146 +1,108 @@
 # boards.mk - the firmware of a board: build it, run it in its emulator, size it
+# SPDX-License-Identifier: MIT
 #
-# SIZE, SPP, SEED, BOUNCES, SAMPLER, DIRECT, INDIRECT, LIGHTS, LIGHT_SAMPLES,
-# ROULETTE (0 or 1), INTERLACE choose the picture, in the simulator's words;
-# PRECISION is draft or fine; TABLE_BITS and TABLE_LERP are those of the gates. STRATEGIES=1 builds every estimator in, which is
-# the default only if one is asked for. ERROR=E stops a pixel at a relative error
-# of E; only then is the code for it built in. What the choice does not need is
-# not built in: the other sampler, with INDIRECT=none or BOUNCES=0 all that
-# follows the first hit, without a panel its code and formats. SMALL=1 asks for
-# short code before fast code: the gate QL_CFG_SMALL, link-time optimisation
-# (LTO=0 does without) and, unless DIAG=1, no counters. SCENE is a name: the main
-# Makefile makes build/SCENE.qlb and build/SCENE.h of it; BLOB names others.
-
-BOARDS := $(notdir $(patsubst %/,%,$(wildcard hal/boards/*/)))
-PRECISION ?= draft
+# A board's board.mk says
+#
+#   BOARD_CROSS  prefix of the compiler's name
+#   BOARD_CPU    its options for the CPU; BOARD_FPU those for float
+#   BOARD_CORE   name of the CPU in the rows of make bench
+#   BOARD_OPT    optimisation, else -O2
+#   BOARD_LTO    1 for optimisation of the whole program
+#   BOARD_MCU    linker/<this>.ld has the memory
+#   BOARD_SRC    sources beside board.c and those of every board
+#   BOARD_STACK  bytes
+#   BOARD_SIZE   the picture unless make is told another: pixels,
+#   BOARD_SPP    and samples a pixel
+#   BOARD_PANEL  format of the panel, if there is one
+#   BOARD_QEMU   the emulator
+#   BOARD_FLASH  how to load a real board: $elf, $hex, $bin
+#
+# tools/dev/variables.txt has the variables that choose picture and firmware.
+# What the choice does not need is not built in: board_defines has the gates.
 
 ifneq ($(BOARD),)
-ifeq ($(filter $(BOARD),$(BOARDS)),)
-$(error BOARD=$(BOARD): use one of $(BOARDS))
-endif
-include hal/boards/$(BOARD)/board.mk
-SMALL ?= 0
-LTO ?= $(or $(BOARD_LTO),$(SMALL))
-DIAG ?= $(if $(filter 1,$(SMALL)),0,1)
 OPT ?= $(if $(filter 1,$(SMALL)),-Os,$(or $(BOARD_OPT),-O2))
-SIZE ?= $(BOARD_SIZE)
-SPP ?= $(BOARD_SPP)
-SEED ?= 0
-BOUNCES ?= 4
-SAMPLER ?= sobol
-DIRECT ?= area
-INDIRECT ?= brdf
-LIGHTS ?= power
-LIGHT_SAMPLES ?= 1
-ROULETTE ?= 0
-INTERLACE ?= 1
-board_choice := --size $(SIZE) --spp $(SPP) --seed $(SEED) \
-    --bounces $(BOUNCES) --sampler $(SAMPLER) --direct $(DIRECT) \
-    --indirect $(INDIRECT) --lights $(LIGHTS) \
-    --light-samples $(LIGHT_SAMPLES) $(if $(filter 1,$(ROULETTE)),--roulette) \
-    $(if $(ERROR),--error $(ERROR))
-STRATEGIES ?= $(if $(filter-out none area,$(DIRECT))$(filter \
-    uniform,$(INDIRECT))$(filter-out power,$(LIGHTS))$(filter-out \
-    1,$(LIGHT_SAMPLES))$(filter 1,$(ROULETTE)),1,0)
-# as the simulator rounds it
-board_error = $(if $(ERROR),-DQL_APP_ERROR_Q16=$(shell awk \
-    'BEGIN { printf "%d", $(ERROR) * 65536 + 0.5 }'))
-INDIRECT_BUILT := $(if $(filter none,$(INDIRECT))$(filter \
-    0,$(BOUNCES)),0,1)
-# 1 << ql_format_t, of the panel, and of the stream
-bit_rgb565-le := 2
-bit_rgb565-be := 4
-bit_gray8 := 8
-bit_gray4 := 16
-board_formats := (1$(BOARD_PANEL:%=+$(bit_$(BOARD_PANEL))))
-# mis -> QL_PREFIX_MIS, solid-angle -> QL_PREFIX_SOLID_ANGLE
-board_word = QL_$(1)_$(shell echo $(2) | tr a-z- A-Z_)
-
-# EMULATED=1 leaves the emulator when done; a real board would hang on that.
-EMULATED ?= 0
 BOARD_MAIN ?= hal/ql_main.c
-board_name := build/$(BOARD)/$(SCENE)$(if $(filter 1,$(SMALL)),-small)$(if \
-    $(filter 0,$(INDIRECT_BUILT)),-direct)$(if \
-    $(filter 1,$(EMULATED)),-emulated)$(VARIANT)
-board_rows := $(BOARD) $(SCENE)$(if $(filter 1,$(SMALL)), small)$(if \
-    $(filter 0,$(INDIRECT_BUILT)), direct)
-board_src := $(or $(FIRMWARE_SRC),$(wildcard firmware/*/*.c)) \
-    $(filter-out hal/ql_main.c,$(wildcard hal/*.c)) $(BOARD_MAIN) \
+
+# What the firmware is called, after the scene.
+board_tags := $(if $(filter 1,$(SMALL)),small)
+board_tags += $(if $(filter 0,$(board_indirect)),direct)
+board_rows := $(strip $(BOARD) $(scene) $(board_tags))
+board_tags += $(if $(filter 1,$(EMULATED)),emulated)
+board_name := $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
+    -,$(board_tags)))$(VARIANT)
+
+board_src := $(or $(FIRMWARE_SRC),$(sort $(wildcard firmware/*/*.c))) \
+    $(sort $(filter-out hal/ql_main.c,$(wildcard hal/*.c))) $(BOARD_MAIN) \
     hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
-board_obj := $(addprefix $(board_name)/,$(addsuffix .o,$(board_src)))
+board_obj := $(patsubst %,$(board_name)/%.o,$(board_src))
+
 # Whole-program optimisation; three passes of it that make code longer are off.
 # Calls that only the compiler makes are not seen in time, so what they call is
 # compiled apart.
-board_lto := $(if $(filter 1,$(LTO)),-flto -flto-partition=one \
-    -fno-move-loop-invariants -fno-tree-dominator-opts -fno-tree-loop-im)
 board_apart := $(board_name)/hal/ql_mem.c.o
-board_ci := $(patsubst %.o,%.ci,$(if $(board_lto),$(board_apart) \
-    $(board_name).elf.ltrans0.ltrans.o,$(filter %.c.o,$(board_obj))))
+ifeq ($(LTO),1)
+board_lto := -flto -flto-partition=one -fno-move-loop-invariants \
+    -fno-tree-dominator-opts -fno-tree-loop-im
+board_graphs := $(board_apart:.o=.ci) $(board_name).elf.ltrans0.ltrans.ci
+else
+board_graphs := $(patsubst %.o,%.ci,$(filter %.c.o,$(board_obj)))
+endif
 
-board_cflags := $(BOARD_CPU) $(OPT) $(board_lto) -std=c99 -pedantic -ffreestanding \
-    $(WARN) -Werror -ffunction-sections -fdata-sections -fno-common -g \
-    -fno-asynchronous-unwind-tables -fcallgraph-info=su \
-    -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
-    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' \
-    -DQL_CFG_PRECISION=$(if $(filter fine,$(PRECISION)),1,0) \
-    -DQL_CFG_TABLE_BITS=$(TABLE_BITS) -DQL_CFG_TABLE_LERP=$(TABLE_LERP) \
-    -DQL_PORT_EMULATED=$(EMULATED) \
-    -DQL_APP_WIDTH=$(word 1,$(subst x, ,$(SIZE))) \
-    -DQL_APP_HEIGHT=$(word 2,$(subst x, ,$(SIZE))) \
-    -DQL_APP_SPP=$(SPP) -DQL_APP_SEED=$(SEED)u -DQL_APP_BOUNCES=$(BOUNCES) \
-    -DQL_APP_SAMPLER=QL_SAMPLER_$(if $(filter random,$(SAMPLER)),RANDOM,SOBOL) \
-    -DQL_APP_DIRECT=$(call board_word,DIRECT,$(DIRECT)) \
-    -DQL_APP_INDIRECT=$(call board_word,INDIRECT,$(INDIRECT)) \
-    -DQL_APP_LIGHTS=$(call board_word,LIGHTS,$(LIGHTS)) \
-    -DQL_APP_LIGHT_SAMPLES=$(LIGHT_SAMPLES) -DQL_APP_ROULETTE=$(ROULETTE) \
-    -DQL_APP_INTERLACE=$(INTERLACE) -DQL_CFG_STRATEGIES=$(STRATEGIES) \
-    -DQL_CFG_ADAPTIVE=$(if $(ERROR),1,0) $(board_error) \
-    -DQL_CFG_INDIRECT=$(INDIRECT_BUILT) -DQL_CFG_SMALL=$(SMALL) \
-    -DQL_CFG_SAMPLERS=$(if $(filter random,$(SAMPLER)),1,2) \
-    -DQL_CFG_PANEL=$(if $(BOARD_PANEL),1,0) \
-    -DQL_CFG_FORMATS='$(board_formats)' -DQL_CFG_DIAG=$(DIAG) \
+# A benchmark is a firmware too.
+ifneq ($(filter bench-board,$(MAKECMDGOALS)),)
+include tests/bench/bench_board.mk
+endif
+
+board_cc := $(BOARD_CROSS)gcc $(BOARD_CPU) $(OPT) $(board_lto) -std=c99 \
+    -pedantic -ffreestanding $(WARN) -Werror -ffunction-sections \
+    -fdata-sections -fno-common -g -fno-asynchronous-unwind-tables \
+    -fcallgraph-info=su -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
+    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' $(board_defines) $(board_bench) \
     $(CFLAGS_BOARD)
+board_ld := $(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) \
+    $(board_lto) -ffreestanding -g -fcallgraph-info=su) -nostdlib \
+    -Wl,--gc-sections -Llinker -Wl,-T,$(BOARD_MCU).ld \
+    -Wl,--defsym=ql_ld_stack_bytes=$(BOARD_STACK) \
+    -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments
+
+board_flags := $(subst /,-,$(board_name:$O/%=%))
+$(call flags,$(board_flags),$(board_cc) $(board_ld) $(board_obj))
 
 firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
+	$(if $(silent),,@echo $<)
 
-# A change of any choice builds again: the flags are a file others depend on.
-$(board_name)/flags: FORCE
-	@mkdir -p $(@D)
-	@printf '%s\n' '$(subst ','\'',$(board_cflags))' | cmp -s - $@ || \
-	    printf '%s\n' '$(subst ','\'',$(board_cflags))' > $@
-
-$(board_name)/%.c.o: %.c $(board_name)/flags $(BLOB).h
-	@mkdir -p $(@D)
-	$(BOARD_CROSS)gcc $(board_cflags) $(if $(filter \
+$(board_name)/%.c.o: %.c $O/flags/$(board_flags) $(BLOB).h
+	$(call step,CC,$<)mkdir -p $(@D) && $(board_cc) $(if $(filter \
 	    $@,$(board_apart)),-fno-lto) -MMD -MP -c $< -o $@
 
-$(board_name)/%.S.o: %.S $(board_name)/flags $(BLOB).qlb
-	@mkdir -p $(@D)
-	$(BOARD_CROSS)gcc $(BOARD_CPU) -c $< -o $@ \
-	    -DQL_BLOB_FILE='"$(BLOB).qlb"'
+$(board_name)/%.S.o: %.S $O/flags/$(board_flags) $(BLOB).qlb
+	$(call step,AS,$<)mkdir -p $(@D) && $(BOARD_CROSS)gcc $(BOARD_CPU) -c $< \
+	    -o $@ -DQL_BLOB_FILE='"$(BLOB).qlb"'
 
 $(board_name).elf: $(board_obj) linker/sections.ld linker/$(BOARD_MCU).ld
-	$(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) $(board_lto) \
-	    -ffreestanding -g -fcallgraph-info=su) -nostdlib -Wl,--gc-sections -Llinker \
-	    -Wl,-T,$(BOARD_MCU).ld -Wl,--defsym=ql_ld_stack_bytes=$(BOARD_STACK) \
-	    -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments \
-	    $(board_obj) -lgcc -o $@
+	$(call step,LD,$@)$(board_ld) $(board_obj) -lgcc -o $@
 
-$(board_name).hex $(board_name).bin: $(board_name).elf
-	$(BOARD_CROSS)objcopy -O $(if $(filter %.hex,$@),ihex,binary) $< $@
+$(board_name).hex: $(board_name).elf
+	$(call step,HEX,$@)$(BOARD_CROSS)objcopy -O ihex $< $@
+
+$(board_name).bin: $(board_name).elf
+	$(call step,BIN,$@)$(BOARD_CROSS)objcopy -O binary $< $@
 
 flash: firmware ## Load SCENE onto a real BOARD
-	elf=$(board_name).elf bin=$(board_name).bin hex=$(board_name).hex; \
-	    $(BOARD_FLASH)
+	$(call step,FLASH,$(BOARD))elf=$(board_name).elf \
+	    bin=$(board_name).bin hex=$(board_name).hex; $(BOARD_FLASH)
 
-run-emulated: $(board_name).elf build/qlux-recv
-	tools/dev/run_board.sh $(if $(QUIET),--quiet) $< build/$(SCENE)-$(BOARD).ppm \
-	    $(BOARD_QEMU)
+board_picture := $O/$(scene)-$(BOARD)
+
+run-emulated: $(board_name).elf $O/qlux-recv
+	$(call step,RUN,$(board_picture).ppm)tools/dev/run_board.sh $(or \
+	    $(if $(QUIET),--quiet),$(quiet)) $< $(board_picture).ppm $(BOARD_QEMU)
+	$(if $(silent),,@echo $(board_picture).ppm)
 
 # What the simulator makes of the same choice; to compare with the board's.
-board_sim := build/qlux-sim$(if $(filter draft,$(PRECISION)),-draft)$(tables)
-build/$(SCENE)-$(BOARD)-sim.ppm: $(BLOB).qlb $(board_sim) FORCE
-	$(board_sim) $< -o $@ --quiet $(board_choice)
+$(board_picture)-sim.ppm: $(BLOB).qlb $(simulator) FORCE
+	$(call step,RENDER,$@)$(sim) --quiet
 
 size-board: $(board_name).elf
 	@$(BOARD_CROSS)size -A $< | awk -v name='$(board_rows)' \
@@ -148,21 +110,20 @@ size-board: $(board_name).elf
 	    /^\.(data|bss) / { ram += $$2 } \
 	    END { print name " flash: " flash; print name " ram: " ram }'
 	@stack=$$(tools/dev/stack_report.sh $< $(BOARD_CROSS)objdump \
-	    $(board_ci)) && echo "$(board_rows) stack: $$stack"
-	@tools/dev/size_report.sh $< $(BOARD_CROSS) | sed 's/^/$(board_rows) flash-/'
+	    $(board_graphs)) && echo "$(board_rows) stack: $$stack"
+	@tools/dev/size_report.sh $< $(BOARD_CROSS) | \
+	    sed 's/^/$(board_rows) flash-/'
 
-test-stack: $(board_name).elf build/qlux-recv
-	tests/boards/test_stack.sh $< $$(tools/dev/stack_report.sh $< \
-	    $(BOARD_CROSS)objdump $(board_ci)) $(BOARD_CROSS)nm $(BOARD_QEMU)
+test-stack: $(board_name).elf $O/qlux-recv
+	@tests/boards/test_stack.sh $< $$(tools/dev/stack_report.sh $< \
+	    $(BOARD_CROSS)objdump $(board_graphs)) $(BOARD_CROSS)nm $(BOARD_QEMU)
 
--include $(board_obj:.o=.d)
+include $(wildcard $(board_obj:.o=.d))
 else
-firmware flash:
-	@echo "$@: needs BOARD=, one of $(BOARDS)" >&2; exit 1
+firmware flash run-emulated size-board test-stack:
+	@echo "$@: name a board: BOARD= one of $(boards)" >&2; exit 1
 endif
 
-.PHONY: firmware flash run-board run-emulated size size-board test-boards \
-    test-stack test-template FORCE
 run-board: ## Render SCENE on an emulated BOARD
 	@$(MAKE) --no-print-directory run-emulated EMULATED=1
 
@@ -172,8 +133,12 @@ size: ## Flash, RAM and stack of SCENE on BOARD, or on every board
 	done
 
 test-template: # A port that does nothing must compile
-	$(CC) -std=c99 -pedantic -ffreestanding $(WARN) -Werror -Ifirmware -Ihal \
-	    -Ihal/template -fsyntax-only hal/template/board.c hal/ql_*.c
+	$(call step,CC,hal/template)$(CC) -std=c99 -pedantic -ffreestanding $(WARN) \
+	    -Werror -Ifirmware -Ihal -Ihal/template -fsyntax-only \
+	    hal/template/board.c hal/ql_*.c
 
 test-boards: $(programs) ## Every board's picture is the simulator's
-	tests/boards/test_boards.sh $(BOARDS)
+	@tests/boards/test_boards.sh $(BOARDS)
+
+.PHONY: firmware flash run-board run-emulated size size-board test-boards \
+    test-stack test-template

@@ -9,9 +9,9 @@
  * any. QL_APP_BOUNCES: indirect reflections. QL_APP_SAMPLER: ql_sampler_kind_t.
  * QL_APP_DIRECT, QL_APP_INDIRECT, QL_APP_LIGHTS: ql_direct_t, ql_indirect_t,
  * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter asked.
- * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR_Q16: relative error of a pixel times
- * 2^16, 0 for all samples. QL_APP_INTERLACE: px between lines of the first
- * pass, a power of two. */
+ * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR: relative error of a pixel, a part of
+ * 1, 0 for all samples. QL_APP_INTERLACE: px between lines of the first pass, a
+ * power of two. */
 #ifndef QL_APP_WIDTH
 #define QL_APP_WIDTH 64
 #endif
@@ -45,8 +45,8 @@
 #ifndef QL_APP_ROULETTE
 #define QL_APP_ROULETTE 0
 #endif
-#ifndef QL_APP_ERROR_Q16
-#define QL_APP_ERROR_Q16 0
+#ifndef QL_APP_ERROR
+#define QL_APP_ERROR 0
 #endif
 #ifndef QL_APP_INTERLACE
 #define QL_APP_INTERLACE 1
@@ -68,7 +68,7 @@ int main(void)
                     QL_APP_INDIRECT, QL_APP_LIGHTS, QL_APP_LIGHT_SAMPLES,
                     QL_APP_ROULETTE,
 #if QL_CFG_ADAPTIVE
-                    QL_APP_ERROR_Q16
+                    QL_ERROR_Q16(QL_APP_ERROR)
 #endif
             },
             QL_APP_INTERLACE,

@@ -2,7 +2,7 @@
 # run.sh - run test jobs side by side; count every claim they print
 # SPDX-License-Identifier: MIT
 #
-# usage: tests/run.sh JOBS
+# usage: tests/run.sh JOBS; logs go to $BUILD/test/log, BUILD being build
 #   JOBS  a file of lines "name|command"; each command prints claims as
 #         "suite  claim_in_words  ok|FAIL  note" and exits non-zero on a failure
 #
@@ -13,7 +13,7 @@
 
 set -u
 jobs_file=$1
-logs=build/test/log
+logs=${BUILD:-build}/test/log
 [ "${2:-}" = --one ] || rm -rf "$logs"
 mkdir -p "$logs"
 

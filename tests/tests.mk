@@ -1,4 +1,5 @@
 # tests.mk - build every test, write the list of jobs, run them side by side
+# SPDX-License-Identifier: MIT
 #
 # A configuration (tests/configs) is the core with one set of gates; unit tests
 # run against each of them, everything else against the two precisions, fine and
@@ -13,40 +14,47 @@ config_draft-san := $(config_draft) $(sanitize)
 # The many others are compiled for unit tests only, and in less time.
 full := fine draft fine-san draft-san
 test_flags = -Werror $(if $(filter $(full),$(1)),-O2 -g,-O1 -g0)
-test_hdr := $(wildcard tests/*/*.h tests/*/*/*.h) $(filter-out $(core_hdr),$(host_hdr))
 test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
     $(wildcard sim/sim_hal.c sim/sim_fault.c firmware/app/*.c)
-support := $(test_lib) sim/sim_render.c tests/known/double/double_pt.c \
-    tests/bench/rays/bench_rays.c tests/bench/rays/float_pt.c $(lib_src) \
+support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \
+    tests/known/double/double_pt.c tests/bench/rays/bench_rays.c \
+    tests/bench/rays/float_pt.c $(lib_src) \
     $(filter-out %_main.c,$(wildcard tools/scene/*.c tools/scene/*/*.c))
 # It renders every feature, so it needs a core that has every one.
 reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c)) \
     tests/known/double/rounding.c
 support_unit := $(test_lib) tools/lib/program/cli.c \
     tools/lib/math/build_table.c
-support_of = $(if $(filter $(full),$(1)),$(support) $(reference),$(support_unit))
+support_of = $(if $(filter $(full),$(1)),$(support) $(reference), \
+    $(support_unit))
 
-# Under configuration $(1): the core, what tests share, and every test.
+# Under configuration $1: the core, what tests share, and every test.
 define rules_of
-build/test/$(1)/%.o: %.c $(core_hdr) $(test_hdr)
-	@mkdir -p $$(@D)
-	$$(CC) $$(HOST) $(call test_flags,$(1)) -Isim -Itests/known -Itests/bench \
-	    $(config_$(1)) -c $$< -o $$@
+$(call objects,test/$1,$(call test_flags,$1) -Isim -Itests/known -Itests/bench \
+    $(config_$1))
 
-build/test/$(1)/core.a: $(core_src:%.c=build/test/$(1)/%.o)
-	rm -f $$@ && ar rcs $$@ $$^
+$O/test/$1/core.a: $(core_src:%.c=$O/test/$1/%.o) $O/flags/sources
+	$$(archive)
 
-build/test/$(1)/support.a: $(patsubst %.c,build/test/$(1)/%.o,$(call \
-    support_of,$(1)))
-	rm -f $$@ && ar rcs $$@ $$^
+$O/test/$1/support.a: $(patsubst %.c,$O/test/$1/%.o,$(call support_of,$1)) \
+    $O/flags/sources
+	$$(archive)
 
-build/test/$(1)/%: build/test/$(1)/tests/%.o build/test/$(1)/support.a \
-    build/test/$(1)/core.a
-	@mkdir -p $$(@D)
-	$$(CC) $(config_$(1)) $(call test_flags,$(1)) $$^ $$(filter %/support.a,$$^) \
-	    -o $$@ -lm -lpthread
+$O/test/$1/%: $O/test/$1/tests/%.o $O/test/$1/support.a $O/test/$1/core.a \
+    $O/flags/link
+	$$(call step,LD,$$@)mkdir -p $$(@D) && $$(CC) $(config_$1) \
+	    $(call test_flags,$1) $$(LDFLAGS) $$(filter %.o %.a,$$^) \
+	    $$(filter %/support.a,$$^) -o $$@ $$(LDLIBS) -lm -lpthread
 endef
-$(foreach c,$(configs) fine-san draft-san,$(eval $(call rules_of,$(c))))
+all_configs := $(configs) fine-san draft-san
+$(foreach c,$(all_configs),$(eval $(call rules_of,$c)))
+
+# Of the configurations that the goals need, the headers that objects include.
+built := $(if $(filter test-all test-configs,$(MAKECMDGOALS)),$(all_configs),\
+    $(if $(filter test-%,$(MAKECMDGOALS)),$(full)))
+built += $(foreach c,$(filter-out $(built),$(all_configs)),$(if $(findstring \
+    $O/test/$c/,$(MAKECMDGOALS)),$c))
+include $(foreach c,$(sort $(built)),$(call headers_of,test/$c))
 .SECONDARY:
 
 unit := $(patsubst tests/%.c,%,$(wildcard tests/unit/test_*.c))
@@ -58,8 +66,8 @@ known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c \
     $(wildcard tests/stat/stat_*.c))
 
 # Jobs, longest first, so that the last one is short: "name|command".
-in = $(foreach t,$(2),$(1)/$(t)|build/test/$(1)/$(t)$(if $(findstring \
-    test_app,$(t)), build/cornell.qlb);)
+in = $(foreach t,$(2),$(1)/$(t)|$O/test/$(1)/$(t)$(if $(findstring \
+    test_app,$(t)), $O/cornell.qlb);)
 jobs_known := $(foreach c,fine draft,$(call in,$(c),$(known)))
 jobs_quick := $(call in,fine,$(unit) $(tool) $(extreme)) \
     $(call in,draft,$(unit) $(extreme))
@@ -67,7 +75,7 @@ jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool) \
     $(extreme)))
 # Of programs that come out the same, byte for byte, one runs: known once built.
 programs_configs := $(foreach c,$(filter-out $(full),$(configs)),$(addprefix \
-    build/test/$(c)/,$(unit)))
+    $O/test/$(c)/,$(unit)))
 jobs_gates := configs/triples|tests/configs/test_gates.sh --triples; \
     configs/gates|tests/configs/test_gates.sh;
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
@@ -78,7 +86,7 @@ jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
     tools/warp|tests/tools/test_warp.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \
     tools/ref|tests/tools/test_ref.sh; \
-    tools/recv|tests/tools/test_recv.sh build/qlux-recv build/test/fine/tools/stream_main;
+    tools/recv|tests/tools/test_recv.sh;
 jobs_lint := lint/layers|tests/lint/check_layers.sh; \
     lint/docs|tests/lint/check_docs.sh; lint/format|tests/lint/check_format.sh;
 jobs_boards := boards|tests/boards/test_boards.sh; \
@@ -88,46 +96,52 @@ jobs_boards := boards|tests/boards/test_boards.sh; \
 jobs_mutants := mutants|tests/mutants/run.sh;
 jobs_matrix := golden|tests/golden/run_matrix.sh; \
     objects|tests/lint/check_objects.sh; \
-    extreme/build|tests/extreme/extreme_build.sh build;
+    extreme/build|tests/extreme/extreme_build.sh;
 
-programs_of = $(filter build/test/%,$(subst |, ,$(subst ;, ,$(1))))
+programs_of = $(filter $O/test/%,$(subst |, ,$(subst ;, ,$(1))))
 
 # $(1) a list of jobs: build what they run, then run them.
 define run
-	@mkdir -p build/test
-	@printf '%s' '$(1)' | tr ';' '\n' | sed 's/^ *//; /^$$/d' > build/test/jobs
-	@tests/run.sh build/test/jobs
+	@mkdir -p $O/test
+	@printf '%s' '$(1)' | tr ';' '\n' | sed 's/^ *//; /^$$/d' > $O/test/jobs
+	@tests/run.sh $O/test/jobs
 endef
 
 test: ## Run everything, on this PC and on every emulated board
 	@tools/dev/setup.sh
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) test-all
 
-test-all: $(programs) build/test/fine/tools/stream_main build/cornell.qlb \
-    build/mesh.qlb \
+test-all: $(programs) $O/test/fine/tools/stream_main $O/cornell.qlb \
+    $O/mesh.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
     $(programs_configs)
-	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
+	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(strip \
+	    )$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
-quick := $(call programs_of,$(jobs_quick)) build/test/fine/tools/stream_main
+quick := $(call programs_of,$(jobs_quick)) $O/test/fine/tools/stream_main
 
-test-quick: $(programs) build/cornell.qlb $(quick) ## Unit and tool tests on this PC
+test-quick: ## Unit and tool tests on this PC
+test-quick: $(programs) $O/cornell.qlb $(quick)
 	$(call run,$(jobs_quick)$(jobs_scripts))
 
 answers := $(call programs_of,$(jobs_known))
 
-test-known: build/cornell.qlb build/mesh.qlb $(answers) ## Pictures whose answer is known
+test-known: ## Pictures whose answer is known
+test-known: $O/cornell.qlb $O/mesh.qlb $(answers)
 	$(call run,$(jobs_known))
 
-test-san: $(call programs_of,$(jobs_san)) build/cornell.qlb ## Unit and tool tests under ASan and UBSan
+test-san: ## Unit and tool tests under ASan and UBSan
+test-san: $(call programs_of,$(jobs_san)) $O/cornell.qlb
 	$(call run,$(jobs_san))
 
-budget := $(foreach c,draft fine,build/test/$(c)/known/double/known_budget)
+budget := $(foreach c,draft fine,$O/test/$(c)/known/double/known_budget)
 
-error-budget: build/cornell.qlb build/mesh.qlb $(budget) ## Error of every stage against double, as DESIGN.md has it
+error-budget: ## Error of every stage against double, as DESIGN.md has it
+error-budget: $O/cornell.qlb $O/mesh.qlb $(budget)
 	@for program in $(budget); do $$program --table || exit; echo; done
 
-test-configs: $(programs_configs) ## Unit tests with every pair of gates, the core with every triple
+test-configs: ## Unit tests with every pair of gates, the core with every triple
+test-configs: $(programs_configs)
 	$(call run,$(jobs_configs))
 
 test-mutants: ## Plant faults in the core, one by one: a test has to see each

@@ -2,6 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "bench/bench_board.h"
+#include "blob/ql_blob_open.h"
 
 int bench_run(ql_status_t (*run)(void))
 {

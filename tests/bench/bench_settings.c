@@ -6,6 +6,7 @@
  */
 
 #include "bench/bench_board.h"
+#include "blob/ql_blob_open.h"
 #include "trade_settings.h"
 
 #define STEP 3u

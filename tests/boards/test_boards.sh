@@ -13,7 +13,8 @@ fi
 
 make=${MAKE:-make}
 . tests/support/claims.sh
-mkdir -p build/fail
+build=${BUILD:-build}
+mkdir -p "$build/fail"
 log=$(mktemp) || exit 3
 trap 'rm -f "$log"' EXIT
 
@@ -27,7 +28,7 @@ check() {
         say "$name" 0 "$note"
     else
         say "$name" 1
-        grep -v '^[a-z0-9-]*-gcc ' "$log" | tail -12 >&2
+        grep -v '^  [A-Z]*	' "$log" | tail -12 >&2
         echo "    again: $*" >&2
     fi
 }
@@ -41,14 +42,14 @@ choose() {
 
 # same BOARD [VARIABLE=value...]: render there and here, compare.
 same() {
-    picture=build/$SCENE-$1
+    picture=$build/$SCENE-$1
     rm -f "$picture.ppm" "$picture-sim.ppm"
     choose "$@" run-board QUIET=1 && choose "$@" "$picture-sim.ppm" || return
     instructions=$(sed -n "s/^instructions: //p" "$log")
     paths=$(sed -n "s/^paths: //p" "$log")
     note="$((instructions / paths)) instructions a path"
     cmp "$picture.ppm" "$picture-sim.ppm" && return
-    cp "$picture.ppm" "build/fail/$SCENE-${1}_actual.ppm"
+    cp "$picture.ppm" "$build/fail/$SCENE-${1}_actual.ppm"
     return 1
 }
 
@@ -64,25 +65,25 @@ scene() {
 
 # panel BOARD [VARIABLE=value...]: the real board's firmware, and what it shows.
 panel() {
-    grey=build/$SCENE-$1-gray4.ppm
+    grey=$build/$SCENE-$1-gray4.ppm
     choose "$@" firmware &&
-        build/qlux-sim-draft "build/$SCENE.qlb" -o "$grey" --quiet \
+        "$build/qlux-sim-draft" "$build/$SCENE.qlb" -o "$grey" --quiet \
             --format gray4 --size 128x64 --spp 8 &&
-        tests/boards/test_panel.sh "build/$1/$SCENE.elf" "$grey"
+        tests/boards/test_panel.sh "$build/$1/$SCENE.elf" "$grey"
 }
 
 # stops BOARD STATUS FAULT: how fault_main.c ends, and that it says so.
 stops() {
-    fault=build/$1/fault-$3
-    choose "$1" EMULATED=1 board_name="$fault" "$fault.elf" \
+    fault=$build/$1/$SCENE-emulated-fault-$3
+    choose "$1" EMULATED=1 VARIANT="-fault-$3" "$fault.elf" \
         BOARD_MAIN=tests/boards/fault_main.c CFLAGS_BOARD=-DTEST_FAULT="$3" ||
         return
     # shellcheck disable=SC2046 # a command and its arguments
-    tools/dev/run_board.sh --quiet "$fault.elf" "build/$1/fault.ppm" \
+    tools/dev/run_board.sh --quiet "$fault.elf" "$build/$1/fault.ppm" \
         $(emulator "$1")
     status=$?
     note="status $status"
-    [ "$status" -eq "$2" ] && [ ! -e "build/$1/fault.ppm" ] || return
+    [ "$status" -eq "$2" ] && [ ! -e "$build/$1/fault.ppm" ] || return
     case $status in
     100) grep -q "^board: panic" "$log" ;;
     101) grep -q "^board: fault" "$log" ;;
@@ -95,13 +96,13 @@ emulator() {
 
 # Ctrl-C on the serial port, a moment after the start of a long picture.
 ctrl_c() {
-    choose "$1" SPP=256 EMULATED=1 "build/$1/$SCENE-emulated.elf" || return
+    choose "$1" SPP=256 EMULATED=1 "$build/$1/$SCENE-emulated.elf" || return
     # shellcheck disable=SC2046
     { sleep 1; printf "\003"; } | timeout 60 $(emulator "$1") \
         -display none -monitor none -serial stdio -icount shift=0 \
         -semihosting-config enable=on,target=native \
-        -kernel "build/$1/$SCENE-emulated.elf" >"build/$1/stopped.stream"
-    ! build/qlux-recv "build/$1/stopped.stream" -o "build/$1/stopped.ppm" \
+        -kernel "$build/$1/$SCENE-emulated.elf" >"$build/$1/stopped.stream"
+    ! "$build/qlux-recv" "$build/$1/stopped.stream" -o "$build/$1/stopped.ppm" \
         --quiet && grep -q "status -12: stopped by the user" "$log"
 }
 

@@ -11,17 +11,18 @@
 # Example: tests/configs/jobs.sh build/test/*/unit/test_fx
 
 set -u
-cksum "$@" | awk '
+built=${BUILD:-build}
+cksum "$@" | awk -v built="$built/test/" '
     {
         name = $3
-        sub(/^build\/test\//, "", name)
+        name = substr(name, length(built) + 1)
         config = name
         sub(/\/.*/, "", config)
         suite = substr(name, length(config) + 2)
         key = suite " " $1 " " $2
         if (key in first) {
-            printf "%s|cmp build/test/%s/%s %s && echo %s is_the_program_of_%s ok;\n",
-                name, first[key], suite, $3, suite, first[key]
+            printf "%s|cmp %s%s/%s %s && echo %s is_the_program_of_%s ok;\n",
+                name, built, first[key], suite, $3, suite, first[key]
         } else {
             first[key] = config
             printf "%s|%s;\n", name, $3

@@ -11,7 +11,7 @@
 # Example: tests/extreme/extreme_build.sh build
 
 set -u
-build=${1:-build}
+build=${1:-${BUILD:-build}}
 work=$build/extreme
 suite=extreme/build
 . tests/support/claims.sh

@@ -14,7 +14,8 @@
 
 set -u
 only=${1:-}
-out=build/golden
+built=${BUILD:-build}
+out=$built/golden
 sums=tests/golden/checksums.txt
 warn='-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef'
 warn="$warn -Wmissing-prototypes -Werror"
@@ -26,14 +27,14 @@ lerp='-DQL_CFG_TABLE_BITS=10 -DQL_CFG_TABLE_LERP=1'
 
 mkdir -p "$out"
 for bits in 16 8; do
-    build/qlux-scene tests/scenes/cornell.scene -o "$out/cornell$bits.qlb" \
+    "$built/qlux-scene" tests/scenes/cornell.scene -o "$out/cornell$bits.qlb" \
         --node-bits "$bits" --quiet || exit 1
 done
 # one scene for each feature, and what they are called
 cornell="$out/cornell16.qlb $out/cornell8.qlb"
 blobs=$cornell
 for scene in glossy sky lens smooth strategies; do
-    build/qlux-scene "tests/scenes/$scene.scene" -o "$out/$scene.qlb" \
+    "$built/qlux-scene" "tests/scenes/$scene.scene" -o "$out/$scene.qlb" \
         --quiet 2> "$out/$scene.log" || exit 1
     blobs="$blobs $out/$scene.qlb"
 done

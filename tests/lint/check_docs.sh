@@ -85,8 +85,8 @@ list_files()
 bad=
 for doc in $(git ls-files '*.md' 2> /dev/null); do
     grep -q '<!-- files ' "$doc" || continue
-    new=build/$(echo "$doc" | tr / _)
-    mkdir -p build
+    new=${BUILD:-build}/$(echo "$doc" | tr / _)
+    mkdir -p "${BUILD:-build}"
     while IFS= read -r line; do
         case $line in
         '<!-- files '*)

@@ -11,7 +11,7 @@
 # Example: tests/lint/check_objects.sh
 
 set -u
-out=build/check-objects
+out=${BUILD:-build}/check-objects
 flags='-std=c99 -pedantic -ffreestanding -Wall -Wextra -Wconversion -Wshadow
     -Wundef -Wmissing-prototypes -Werror -O2 -ffunction-sections -Ifirmware -Ihal'
 . tests/support/claims.sh

@@ -33,7 +33,8 @@ LIMIT=${LIMIT:-120}
 flags="-std=c99 -O1 -w -D_POSIX_C_SOURCE=200809L"
 rest="-Ifirmware -Itools -Ihal -Itests -I."
 jobs=$(getconf _NPROCESSORS_ONLN)
-work=${WORK:-build/mutants}
+built=${BUILD:-build}
+work=${WORK:-$built/mutants}
 
 precision_of() # CONFIGURATION: as tests/configs
 {
@@ -170,7 +171,7 @@ make_mutant()
 passes()
 {
     case $3 in
-    unit/test_app) set -- "$1" "$2" "$3" build/cornell.qlb ;;
+    unit/test_app) set -- "$1" "$2" "$3" "$built/cornell.qlb" ;;
     esac
     timeout "$LIMIT" "$1/$3" ${4:+"$4"} > "$2" 2>&1
     status=$?
@@ -185,7 +186,7 @@ lives()
 {
     dir=$work/$1
     build=$(build_of "$1")
-    base=build/test/$build
+    base=$built/test/$build
     object=$base/tests/$2.o
     mkdir -p "$dir/$(dirname "$2")"
     if [ ! -f "$dir/$2" ]; then
@@ -227,7 +228,7 @@ others()
     for test in $(all_tests); do
         if ! lives "$1" "$test"; then
             by=$why
-            if passes "build/test/$build" "$work/$1/log" "$test"; then
+            if passes "$built/test/$build" "$work/$1/log" "$test"; then
                 say_as "mutants/$1" "killed_by_$test" ok "$by"
                 echo "$1" >> "$work/by_others"
                 return
@@ -251,7 +252,7 @@ base_one()
 {
     log=$work/base/log/$(echo "$1" | tr '/ ' '__')
     set -- $1
-    if ! passes "build/test/$1" "$log" "$2" "${3:-}"; then
+    if ! passes "$built/test/$1" "$log" "$2" "${3:-}"; then
         say_as mutants/base "$2" FAIL "fails without any fault: $why"
     elif ! awk '$3 == "ok" { f = 1 } END { exit !f }' "$log"; then
         say_as mutants/base "$2" FAIL "claims nothing like ${3:-}"
@@ -340,7 +341,7 @@ check()
 # COMMAND...: print its claims as they come, count them; fails if a claim does.
 count()
 {
-    mkdir -p build
+    mkdir -p "$built"
     "$@" | tee "$work.log"
     awk '
         $3 == "ok" { passed++ }
@@ -364,7 +365,7 @@ run()
     [ -f "$work/lives" ] || return
     make -s -k -j "$jobs" $(for build in $(sort "$work/lives" |
         while read -r name; do build_of "$name"; done | sort -u); do
-        all_tests | sed "s|^|build/test/$build/|"
+        all_tests | sed "s|^|$built/test/$build/|"
     done) > "$work/make.log" 2>&1
     sort "$work/lives" | each --others
     if [ -f "$work/by_others" ]; then
@@ -393,14 +394,14 @@ case ${1:-} in
     rm -rf "${work:?}/$2"
     ;;
 --check)
-    work=build/mutants-check
+    work=$built/mutants-check
     count check
     ;;
 --list) print_list ;;
 --needs)
-    killers $(names) | awk '
-        { print "build/test/" $1 "/" $2 }
-        END { print "build/cornell.qlb\nbuild/mesh.qlb" }' | sort -u
+    killers $(names) | awk -v built="$built" '
+        { print built "/test/" $1 "/" $2 }
+        END { print built "/cornell.qlb\n" built "/mesh.qlb" }' | sort -u
     ;;
 -*) sed -n '/^# usage/,/^# Example/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 '') count run_all ;;

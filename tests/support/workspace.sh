@@ -7,7 +7,7 @@
 
 . tests/support/claims.sh
 root=$(pwd)
-build=$(cd "${1:-build}" && pwd) || exit 3
+build=$(cd "${1:-${BUILD:-build}}" && pwd) || exit 3
 work=$(mktemp -d) || exit 3
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 3

@@ -2,11 +2,12 @@
 # test_recv.sh - qlux-recv gives the exact picture, or none and a reason
 # SPDX-License-Identifier: MIT
 
-recv=${1:-build/qlux-recv}
-stream=${2:-build/tests/stream}
+recv=${1:-${BUILD:-build}/qlux-recv}
+stream=${2:-${BUILD:-build}/test/fine/tools/stream_main}
 if [ "${1-}" = --help ]; then
     echo 'usage: tests/tools/test_recv.sh [QLUX-RECV STREAM]'
-    echo 'Example: tests/tools/test_recv.sh build/qlux-recv build/tests/stream'
+    echo 'Example: tests/tools/test_recv.sh build/qlux-recv \
+        build/test/fine/tools/stream_main'
     exit 0
 fi
 

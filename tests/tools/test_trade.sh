@@ -101,7 +101,7 @@ quick
 status=$?
 [ $status -eq 0 ] || tail -n 5 "$work/log"
 say quick_measures_its_choices $status
-csv=build/trade-quick.csv
+csv=$build/trade-quick.csv
 sed -n 's/^!\([^ +]*\)+\{0,1\} .* all .*/\1/p' tools/trade/choices.txt |
     while read -r name; do
         for scene in cornell lights dents; do
@@ -113,7 +113,7 @@ sed -n 's/^!\([^ +]*\)+\{0,1\} .* all .*/\1/p' tools/trade/choices.txt |
 say every_choice_has_rows_in_every_scene $?
 [ "$(grep -c ' on cortex-m3' "$work/said.txt")" -eq 3 ]
 say every_scene_has_a_recommendation $?
-[ -s build/trade-quick.svg ] && [ -s build/trade-quick.png ]
+[ -s "$build/trade-quick.svg" ] && [ -s "$build/trade-quick.png" ]
 say table_and_drawings_are_written $?
 
 # Independent samples: 64 times as many err an eighth.
@@ -138,13 +138,13 @@ say costs_are_in_the_order_of_the_work $?
 
 # Nothing is measured twice; what is missing is.
 stamp() { # when each was measured
-    find build/trade/quick -name '*.error' -o -name '*.cost' | sort |
+    find "$build/trade/quick" -name '*.error' -o -name '*.cost' | sort |
         xargs ls -l --time-style=full-iso | sed 's/.* \(20[0-9-]* [^ ]*\) .* /\1 /'
 }
 stamp >"$work/before"
 quick && stamp >"$work/after" && cmp -s "$work/before" "$work/after"
 say a_second_run_measures_nothing $?
-rm -f build/trade/quick/cornell/base.error
+rm -f "$build/trade/quick/cornell/base.error"
 quick && stamp >"$work/after" &&
     [ "$(diff "$work/before" "$work/after" | grep -c '^>')" -eq 1 ]
 say a_run_goes_on_with_what_is_missing $?

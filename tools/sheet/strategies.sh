@@ -38,7 +38,8 @@ END2
 scene=tests/scenes/strategies.scene
 size='' spp=64 reference_spp=4096 bounces=0 sampler=random
 strategies='hemisphere cosine area solid-angle mis'
-out=build/strategies.png
+build=${BUILD:-build}
+out=$build/strategies.png
 
 fail() { # code, message
     echo "strategies.sh: $2" >&2
@@ -68,12 +69,13 @@ done
 
 make=${MAKE:-make}
 name=$(basename "$scene" .scene)
-dir=build/strategies
+dir=$build/strategies
 mkdir -p "$dir" || exit 3
-$make -s --no-print-directory "build/$name.qlb" build/qlux-sim build/qlux-diff \
-    build/qlux-merge build/qlux-sheet SCENE="$scene" >"$dir/make.log" 2>&1 ||
+$make -s --no-print-directory "$build/$name.qlb" \
+    "$build/qlux-sim" "$build/qlux-diff" "$build/qlux-merge" \
+    "$build/qlux-sheet" SCENE="$scene" >"$dir/make.log" 2>&1 ||
     { cat "$dir/make.log" >&2; exit 2; }
-blob=build/$name.qlb
+blob=$build/$name.qlb
 options="--bounces $bounces ${size:+--size $size}"
 
 # render NAME OPTIONS...: NAME.png to look at, NAME.pfm to measure
@@ -83,14 +85,14 @@ render() {
     echo "$name, $picture:" >&2
     # $options is a list
     # shellcheck disable=SC2086
-    build/qlux-sim "$blob" -o "$dir/$picture.png" --stats $options "$@" \
+    "$build/qlux-sim" "$blob" -o "$dir/$picture.png" --stats $options "$@" \
         --save-sums "$dir/$picture.qls" >"$dir/$picture.stats" &&
-        build/qlux-merge "$dir/$picture.qls" -o "$dir/$picture.pfm" \
+        "$build/qlux-merge" "$dir/$picture.qls" -o "$dir/$picture.pfm" \
             >"$dir/merge.log" || exit
     rm -f "$dir/$picture.qls"
 }
 
-key=$(echo "$reference_spp $options" | cat - "$blob" build/qlux-sim | cksum |
+key=$(echo "$reference_spp $options" | cat - "$blob" "$build/qlux-sim" | cksum |
     cut -d ' ' -f 1)
 reference=reference-$key
 if ! [ -s "$dir/$reference.pfm" ]; then
@@ -100,7 +102,7 @@ fi
 
 for strategy in $strategies; do
     render "$strategy" --direct "$strategy" --spp "$spp" --sampler "$sampler"
-    build/qlux-diff "$dir/$strategy.pfm" "$dir/$reference.pfm" \
+    "$build/qlux-diff" "$dir/$strategy.pfm" "$dir/$reference.pfm" \
         >"$dir/$strategy.diff" || exit
 done
 
@@ -159,7 +161,7 @@ set --
 while read -r strategy label; do
     set -- "$@" "$label=$dir/$strategy.png"
 done <"$dir/labels.txt"
-build/qlux-sheet -o "$out" --columns 3 \
+"$build/qlux-sheet" -o "$out" --columns 3 \
     --title "Ways of finding light, $spp samples a pixel" \
     --title "$(sed -n '1s/^# *//p' "$scene")" \
     --title "variance of a sample, $cost of a path$([ $cost = rays ] ||

@@ -1,14 +1,16 @@
 # rules.awk - choices.txt to make rules: what is built, measured, and kept
 # SPDX-License-Identifier: MIT
 #
-# usage: awk -f tools/trade/rules.awk -v quick=0 tools/trade/choices.txt
+# usage: awk -v quick=0 -v build=build -f tools/dev/gates.awk \
+#            -f tools/trade/rules.awk tools/trade/choices.txt
 #
-# Every measurement is a file in build/trade, so make does what is missing and
+# Every measurement is a file in BUILD/trade, so make does what is missing and
 # what has changed, and goes on where it was stopped. -v quick=1 is for the
 # choices with a ! in front, in small pictures, on one core.
 
 BEGIN {
-    dir = quick ? "build/trade/quick" : "build/trade"
+    gates_read()
+    dir = build "/trade" (quick ? "/quick" : "")
     n_scenes = split("cornell lights dents", scenes, " ")
     size["cornell"] = quick ? "18x18" : "36x36"
     size["lights"] = size["dents"] = quick ? "20x15" : "40x30"
@@ -52,7 +54,7 @@ function keep(file, text,    line, old) {
         return
     line = file
     sub(/\/[^\/]*$/, "", line)
-    system("mkdir -p " line)
+    system("mkdir -p \"" line "\"")
     printf "%s", text > file
     close(file)
 }
@@ -66,7 +68,7 @@ function rule(target, needs, recipe, args)
 
 function blob_of(scene, blob)
 {
-    return "build/trade/" scene "-" blob
+    return build "/trade/" scene "-" blob
 }
 
 # A choice in a scene: its error here, its place in a firmware.
@@ -79,7 +81,7 @@ function choice(scene,    blob, out, spp, group, args)
     args = enough " " blob_of(scene, blob) ".qlb --size " size[scene] \
         " --spp " spp options
     keep(out ".args", args "\n")
-    rule(out ".error", "build/trade/error-" core " " dir "/" scene "-a.pfm " \
+    rule(out ".error", build "/trade/error-" core " " dir "/" scene "-a.pfm " \
         dir "/" scene "-b.pfm " blob_of(scene, blob) ".qlb " out ".args",
         "trade_error", args)
     targets = targets " " out ".error"
@@ -90,10 +92,15 @@ function choice(scene,    blob, out, spp, group, args)
         "|" options "|" group
 }
 
-function strategies(options)
+# Does a firmware of these options need every estimator?
+function strategies(options,    settings)
 {
-    return options ~ /--(lights|light-samples|roulette|indirect uniform)/ ||
-        options ~ /--direct (hemisphere|cosine|solid-angle|mis)/
+    settings["direct"] = gates_value(enumerator("direct", "area"))
+    settings["indirect"] = gates_value(enumerator("indirect", "brdf"))
+    settings["lights"] = gates_value(enumerator("lights", "power"))
+    settings["light_samples"] = value("--light-samples", 1)
+    settings["roulette"] = options ~ /--roulette/
+    return gates_need("STRATEGIES", settings) != ""
 }
 
 function value(option, otherwise,    words, n, i)
@@ -105,10 +112,11 @@ function value(option, otherwise,    words, n, i)
     return otherwise
 }
 
-function enumerator(prefix, word)
+# What an option that takes a word is in C.
+function enumerator(option, otherwise)
 {
-    gsub(/-/, "_", word)
-    return "QL_" prefix "_" toupper(word)
+    return gates_enumerator("QL_" toupper(option) "_",
+        value("--" option, otherwise))
 }
 
 # An initialiser of trade_settings.h.
@@ -116,16 +124,14 @@ function c_settings(scene,    wh)
 {
     split(size[scene], wh, "x")
     return sprintf("{\"%s\", {.width = %d, .height = %d, .spp = %d, " \
-        ".seed = 0, .bounces = %d, .sampler = %s, .direct = %s, .indirect = %s, " \
-        ".lights = %s, .light_samples = %d, .roulette = %d, .error_q16 = %d}},",
-        name, wh[1], wh[2], value("--error", 0) > 0 ? 64 : 4,
-        value("--bounces", 4),
-        enumerator("SAMPLER", value("--sampler", "sobol")),
-        enumerator("DIRECT", value("--direct", "area")),
-        enumerator("INDIRECT", value("--indirect", "brdf")),
-        enumerator("LIGHTS", value("--lights", "power")),
-        value("--light-samples", 1), options ~ /--roulette/ ? 1 : 0,
-        value("--error", 0) * 65536 + 0.5)
+        ".seed = 0, .bounces = %d, .sampler = %s, .direct = %s, " \
+        ".indirect = %s, .lights = %s, .light_samples = %d, " \
+        ".roulette = %d, .error_q16 = QL_ERROR_Q16(%s)}},",
+        name, wh[1], wh[2], value("--error", 0) + 0 > 0 ? 64 : 4,
+        value("--bounces", 4), enumerator("sampler", "sobol"),
+        enumerator("direct", "area"), enumerator("indirect", "brdf"),
+        enumerator("lights", "power"), value("--light-samples", 1),
+        options ~ /--roulette/ ? 1 : 0, value("--error", 0))
 }
 
 # A firmware for choices that share everything that is built in, on each core.
@@ -154,7 +160,7 @@ function firmware(group,    g, b, folder, key, part)
 function program(core,    part)
 {
     split(core, part, "-")
-    rule("build/trade/error-" core, "tools/trade/trade_error.c " \
+    rule(build "/trade/error-" core, "tools/trade/trade_error.c " \
         "$(trade_tables) $(io) $(" \
         part[1] ")", "trade_core",
         "-DQL_CFG_PRECISION=" (part[1] == "fine") " -DQL_CFG_TABLE_BITS=" \
@@ -171,13 +177,13 @@ END {
         out = blob_of(part[1], part[2])
         print out ".h: " out ".qlb"
         rule(out ".qlb", "tests/scenes/" part[1] ".scene $(wildcard " \
-            "tests/scenes/" part[1] ".*) build/qlux-scene", "trade_blob",
+            "tests/scenes/" part[1] ".*) " build "/qlux-scene", "trade_blob",
             blobs[blob])
     }
     for (k = 1; k <= n_scenes; k++)
         for (i = 1; i <= 2; i++) {
             out = dir "/" scenes[k] "-" substr("ab", i, 1) ".pfm"
-            rule(out, blob_of(scenes[k], "n16l4") ".qlb build/qlux-ref",
+            rule(out, blob_of(scenes[k], "n16l4") ".qlb " build "/qlux-ref",
                 "trade_reference", "--size " size[scenes[k]] " --spp " \
                 reference_spp " --seed " 1000 + i)
             targets = targets " " out

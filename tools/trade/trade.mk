@@ -1,8 +1,12 @@
 # trade.mk - what every choice costs and how exact it is
-
-build/qlux-trade: $(patsubst %.c,build/host/%.o,$(wildcard tools/figure/*.c) \
-    $(addprefix tools/trade/,trade_main.c trade_plot.c trade_table.c)) $(io) $(fine)
-	$(link)
+# SPDX-License-Identifier: MIT
+#
+#   make trade -> trade.sh            what is to be measured
+#                  |-> rules.awk      choices.txt to rules of make, rules.mk
+#                  |-> make tools trade-measure TRADE_RULES=rules.mk
+#                  |     '-> the recipes below: qlux-scene, qlux-ref, trade_error
+#                  |           and, for instructions, make bench-board BOARD=b
+#                  '-> qlux-trade     the table of all measurements, and drawings
 
 trade: ## Error against instructions of every choice: build/trade.csv, .svg
 	@MAKE='$(MAKE)' tools/trade/trade.sh
@@ -10,24 +14,26 @@ trade: ## Error against instructions of every choice: build/trade.csv, .svg
 trade-quick: ## The same of a few choices, on one core, in a minute
 	@MAKE='$(MAKE)' tools/trade/trade.sh --quick
 
-# tools/trade/trade.sh writes the rules of the measurements (rules.awk), with ARGS for
-# each, and comes back for them.
 ifneq ($(TRADE_RULES),)
-CORE := $(core_src) $(wildcard firmware/app/*.c) $(core_hdr) tests/bench/bench_settings.c \
-    $(wildcard tests/bench/bench_board.*)
-trade_tables := $(wildcard firmware/math/*.c firmware/sample/*.c firmware/warp/*.c)
+trade_tables := $(wildcard firmware/math/*.c firmware/sample/*.c \
+    firmware/warp/*.c)
+# What a firmware of bench_settings.c is made of.
+CORE := $(core_src) $(wildcard firmware/app/*.c firmware/*.h firmware/*/*.h \
+    hal/*.h) tests/bench/bench_settings.c $(wildcard tests/bench/bench_board.*)
 trade_done = > $@.tmp 2> $@.log && mv $@.tmp $@ || \
     { tail -n 5 $@.log >&2; exit 1; }
 
-trade_blob = @mkdir -p $(@D) && build/qlux-scene $< -o $@ --quiet \
+trade_blob = @mkdir -p $(@D) && $O/qlux-scene $< -o $@ --quiet \
     --features $(@:.qlb=.h) $(ARGS) 2> $(@:.qlb=.log)
-trade_reference = @mkdir -p $(@D) && build/qlux-ref $< -o $@ $(ARGS) \
+trade_reference = @mkdir -p $(@D) && $O/qlux-ref $< -o $@ $(ARGS) \
     --direct mis --bounces 24 --roulette --threads 1 --quiet
-trade_core = @mkdir -p $(@D) && $(CC) $(HOST) $(ARGS) $(filter-out $(patsubst \
-    %.c,build/fine/%.o,$(trade_tables)) $(patsubst \
-    %.c,build/draft/%.o,$(trade_tables)),$(filter %.o %.c %.a,$^)) -o $@ -lm
+# The core's objects but for what the tables change, which is compiled here.
+trade_core = @mkdir -p $(@D) && $(CC) $(HOST) $(ARGS) $(filter-out $(foreach \
+    f,fine draft,$(trade_tables:%.c=$O/$f/%.o)),$(filter %.o %.c \
+    %.a,$^)) -o $@ -lpthread -lm
 trade_error = @$< $(wordlist 2,3,$^) $(ARGS) $(trade_done)
-trade_cost = @$(MAKE) -s --no-print-directory bench-board EMULATED=1 $(ARGS) TRADE_RULES= \
+trade_cost = @$(MAKE) -s --no-print-directory bench-board EMULATED=1 $(ARGS) \
+    TRADE_RULES= \
     BOARD_MAIN='tests/bench/bench_settings.c tests/bench/bench_board.c' \
     CFLAGS_BOARD='-I$(@D) -UQL_CFG_ADAPTIVE -DQL_CFG_ADAPTIVE=1 \
     -UQL_CFG_SAMPLERS -DQL_CFG_SAMPLERS=3' $(trade_done)

@@ -30,14 +30,15 @@ case ${1-} in
 *) usage >&2; exit 1 ;;
 esac
 make=${MAKE:-make}
-dir=build/trade
-[ $quick = 0 ] || dir=build/trade/quick
+build=${BUILD:-build}
+dir=$build/trade
+[ $quick = 0 ] || dir=$build/trade/quick
 rules=$dir/rules.mk
 mkdir -p "$dir" || exit 3
 
 tools/dev/setup.sh >&2 || exit # cross compilers and emulators
-awk -v quick=$quick -f tools/trade/rules.awk tools/trade/choices.txt \
-    > "$rules" || exit
+awk -v quick=$quick -v build="$build" -f tools/dev/gates.awk \
+    -f tools/trade/rules.awk tools/trade/choices.txt > "$rules" || exit
 $make -s --no-print-directory -j"$(getconf _NPROCESSORS_ONLN)" tools \
     >"$dir/log" 2>&1 || { cat "$dir/log" >&2; exit 3; }
 targets=$(sed -n 's/^TRADE_TARGETS := *//p' "$rules")
@@ -129,8 +130,8 @@ awk -F'|' -v dir="$dir" '
                         f[1] * cost[group, b, $2]
         }
         close(file)
-    }' "$dir/rows" > "build/$name.csv.tmp" &&
-    mv "build/$name.csv.tmp" "build/$name.csv" &&
-    build/qlux-trade "build/$name.csv" -o "build/$name.svg" &&
-    build/qlux-trade "build/$name.csv" -o "build/$name.png" --quiet || exit
-echo "build/$name.csv build/$name.svg build/$name.png" >&2
+    }' "$dir/rows" > "$build/$name.csv.tmp" &&
+    mv "$build/$name.csv.tmp" "$build/$name.csv" &&
+    "$build/qlux-trade" "$build/$name.csv" -o "$build/$name.svg" &&
+    "$build/qlux-trade" "$build/$name.csv" -o "$build/$name.png" --quiet || exit
+echo "$build/$name.csv $build/$name.svg $build/$name.png" >&2

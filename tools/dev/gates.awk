@@ -1,0 +1,88 @@
+# gates.awk - which gates settings need, by the list that the core refuses by
+# SPDX-License-Identifier: MIT
+#
+# usage: awk -f tools/dev/gates.awk -f PROGRAM.awk ...
+#
+# Functions for other programs. gates_read() reads the enums, the numbers and
+# the rows of QL_SETTINGS_NEED of firmware/base/ql_settings.h, and the pixel
+# formats of ql_format.h; gates_need() says what settings need.
+
+# solid-angle of QL_DIRECT_: QL_DIRECT_SOLID_ANGLE
+function gates_enumerator(prefix, word)
+{
+    gsub(/-/, "_", word)
+    return prefix toupper(word)
+}
+
+# QL_DIRECT_SOLID_ANGLE of QL_DIRECT_: solid-angle
+function gates_word(prefix, enumerator)
+{
+    enumerator = tolower(substr(enumerator, length(prefix) + 1))
+    gsub(/_/, "-", enumerator)
+    return enumerator
+}
+
+# Fills gates_number[NAME], gates_words[PREFIX] "none area ..", gates_row[].
+function gates_read(    file, line, names, n, i, at, text)
+{
+    n = split("ql_settings.h ql_format.h", names, " ")
+    for (i = 1; i <= n; i++) {
+        file = "firmware/base/" names[i]
+        while ((getline line < file) > 0) {
+            # #define QL_BOUNCES_MAX 64u
+            if (line ~ /^#define QL_[A-Z_]+ +[0-9]+u?$/) {
+                split(line, text, " ")
+                gates_number[text[2]] = text[3] + 0
+            }
+            if (line ~ /^typedef enum/)
+                at = 0
+            #     QL_DIRECT_NONE,        /* not at all */
+            if (match(line, /^ +QL_[A-Z0-9_]+,?( |$)/)) {
+                sub(/^ +/, "", line)
+                sub(/[, ].*/, "", line)
+                gates_number[line] = at++
+                gates_list[++gates_enums] = line
+            }
+            #     NEED(STRATEGIES, direct, QL_DIRECT_HEMISPHERE, ...)  \
+            if (line ~ /^ +(NEED|BOTH)\(/)
+                gates_row[++gates_rows] = ""
+            if (gates_rows > 0 && gates_row[gates_rows] !~ /\)/) {
+                gsub(/[\\ ]/, "", line)
+                gates_row[gates_rows] = gates_row[gates_rows] line
+            }
+        }
+        close(file)
+    }
+}
+
+# Words of the enum whose names begin with prefix, in its order.
+function gates_words(prefix,    i, words)
+{
+    for (i = 1; i <= gates_enums; i++)
+        if (index(gates_list[i], prefix) == 1)
+            words = words " " gates_word(prefix, gates_list[i])
+    return substr(words, 2)
+}
+
+function gates_value(name)
+{
+    return name in gates_number ? gates_number[name] : name + 0
+}
+
+# The member of ql_settings_t for which settings[MEMBER], numbers, need a gate;
+# nothing if they do not.
+function gates_need(gate, settings,    r, n, part, k, all)
+{
+    for (r = 1; r <= gates_rows; r++) {
+        n = split(gates_row[r], part, /[(),]/)
+        if (part[2] != gate)
+            continue
+        all = 1
+        for (k = 3; k + 2 <= n && part[k] != ""; k += 3)
+            all = all && settings[part[k]] >= gates_value(part[k + 1]) &&
+                settings[part[k]] <= gates_value(part[k + 2])
+        if (all)
+            return part[3]
+    }
+    return ""
+}
