@@ -3,6 +3,8 @@
 
 #include "blob/ql_blob_parts.h"
 
+#include "math/ql_vec_unit.h"
+
 /* Find a table: aligned, after the header, entirely inside the blob. Entries of
  * a blob below 4 GB: entry_bytes * count_max fits 32 bits. */
 static const void *table_at(const ql_blob_header_t *header,
@@ -109,8 +111,8 @@ static bool vertices_valid(const ql_blob_vertex_t *vertices, uint32_t count)
 static bool normal_valid(const ql_scene_t *scene, const ql_blob_tri_t *tri)
 {
     const ql_edges_t e = ql_scene_edges(scene, tri);
-    const ql_vec3_t n =
-            ql_vec_unit(ql_vec_cross(e.e1, e.e2), QL_LE32(tri->inv_n));
+    const ql_vec3_t n = ql_vec_unit_q29_of_inv_n(
+            ql_vec_cross(e.e1, e.e2), QL_LE32(tri->inv_n));
     const uint32_t x = ql_abs32(n.x), y = ql_abs32(n.y), z = ql_abs32(n.z);
 
     /* 3 2^62 fits; 2^38 is room for a length off by 2^-21 */

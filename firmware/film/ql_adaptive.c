@@ -10,7 +10,7 @@ typedef struct {
     uint64_t high, low;
 } wide_t;
 
-static wide_t product(uint64_t a, uint64_t b)
+static wide_t multiply(uint64_t a, uint64_t b)
 {
     const uint64_t al = (uint32_t)a, ah = a >> 32;
     const uint64_t bl = (uint32_t)b, bh = b >> 32;
@@ -29,14 +29,13 @@ static wide_t product(uint64_t a, uint64_t b)
 static ql_real_t real_from_wide(wide_t n)
 {
     const unsigned zeros = ql_clz64(n.high); /* 16 or more, see below */
-    ql_real_t r;
 
     if (n.high == 0) {
         return ql_real_from_u64(n.low);
     }
-    r = ql_real_from_u64(n.high << zeros | n.low >> (64 - zeros));
-    r.e = (int16_t)(r.e + 64 - (int16_t)zeros);
-    return r;
+    return ql_real_scale(
+            ql_real_from_u64(n.high << zeros | n.low >> (64 - zeros)),
+            64 - (int32_t)zeros);
 }
 
 void ql_spread_add(ql_spread_t *spread, uint32_t value)
@@ -53,8 +52,8 @@ bool ql_spread_enough(const ql_spread_t *spread, uint16_t error_q16)
 {
     const uint32_t h = spread->count;
     /* sums below 2^88 and 2^56, h <= 2^24: both below 2^112 */
-    wide_t squares = product(spread->square_low, h);
-    const wide_t square = product(spread->sum, spread->sum);
+    wide_t squares = multiply(spread->square_low, h);
+    const wide_t square = multiply(spread->sum, spread->sum);
     const ql_real_t sum = ql_real_from_u64(spread->sum);
     ql_real_t right;
 
@@ -68,8 +67,8 @@ bool ql_spread_enough(const ql_spread_t *spread, uint16_t error_q16)
     /* E^2 (h - 1) < 2^56 of 2^-32, twice */
     right = ql_real_from_u64(
             (uint64_t)((uint32_t)error_q16 * error_q16) * (h - 1));
-    right.e = (int16_t)(right.e - 31);
-    right = ql_real_times(right, ql_real_times(sum, sum));
+    right = ql_real_mul_call(
+            ql_real_scale(right, -31), ql_real_mul_call(sum, sum));
     return ql_real_sub(real_from_wide(squares), right).m == 0;
 }
 
@@ -107,9 +106,9 @@ bool ql_half_decide(ql_half_t half[2], uint16_t error_q16, bool last)
 }
 
 /* sum * factor / 2^shift, rounded half up; saturates. factor < 2^24. */
-static uint64_t scaled(uint64_t sum, uint32_t factor, unsigned shift)
+static uint64_t scale_sum(uint64_t sum, uint32_t factor, unsigned shift)
 {
-    const wide_t exact = product(sum, factor);
+    const wide_t exact = multiply(sum, factor);
     const uint64_t half = (uint64_t)1 << shift >> 1;
     const uint64_t low = exact.low + half;
     const uint64_t high = exact.high + (low < half); /* < 2^24 + 1 */
@@ -131,7 +130,7 @@ uint32_t ql_half_join(const ql_half_t half[2], ql_sum_t *sum)
             /* used is count, or less and a power of two */
             sum->rgb[i] = saturating_sum(sum->rgb[i],
                     used == count ? half[k].used.rgb[i]
-                                  : scaled(half[k].used.rgb[i], count,
+                                  : scale_sum(half[k].used.rgb[i], count,
                                             31 - ql_clz32(used)));
         }
     }

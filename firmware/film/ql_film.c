@@ -108,14 +108,11 @@ ql_real_t ql_film_exposure(int16_t radiance_exp, int16_t exposure_q8)
             0x85aac368u, 0x82cd8699u, 0x8164d1f4u, 0x80b1ed50u, 0x8058d7d3u};
     const int32_t whole = ql_asr32(exposure_q8, 8);
     const uint32_t fraction = (uint32_t)(exposure_q8 - whole * 256);
-    ql_real_t r = {0x80000000u, 0};
+    ql_real_t r = ql_real_scale(QL_REAL_ONE, radiance_exp + whole);
 
-    r.e = (int16_t)(radiance_exp + whole - 31);
     for (unsigned i = 0; i < 8; i++) {
         if (fraction >> (7 - i) & 1u) {
-            const ql_real_t factor = {root[i], -31};
-
-            r = ql_real_mul(r, factor);
+            r = ql_real_mul(r, QL_REAL(root[i], -31));
         }
     }
     return r;

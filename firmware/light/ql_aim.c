@@ -3,6 +3,8 @@
 
 #include "light/ql_aim.h"
 
+#include "math/ql_frame.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_lobe.h"
 #include "warp/ql_spherical.h"
 #include "warp/ql_warp.h"
@@ -12,55 +14,16 @@
 #include "trace/ql_sphere.h"
 #include "trace/ql_surface_at.h"
 
-#define PI_M 0xc90fdaa2u /* pi 2^30 */
-
 /* Is there more than points of triangles? */
 #define DIRECTIONS (QL_CFG_SPHERES || QL_CFG_SKY || QL_CFG_STRATEGIES)
-
-/* a 2^shift; exponents stay within a few hundred. */
-static ql_real_t scaled(ql_real_t a, int shift)
-{
-    a.e = (int16_t)(a.e + shift);
-    return a;
-}
 
 #if DIRECTIONS
 /* pi a 2^shift */
 static ql_real_t pi_times(ql_real_t a, int shift)
 {
-    const ql_real_t pi = {PI_M, -30};
-
-    return scaled(ql_real_mul(pi, a), shift);
+    return ql_real_scale(ql_real_mul(QL_REAL_PI, a), shift);
 }
 #endif
-
-/* |v|^2; components below 2^30. */
-static ql_real_t length_squared(ql_vec3_t v)
-{
-    return ql_real_from_u64((uint64_t)ql_vec_dot(v, v));
-}
-
-/* x 2^up, or x / 2^-up cut; the result fits. */
-static int32_t shifted(int32_t x, int up)
-{
-    return up >= 0 ? ql_i32((uint32_t)x << up) : ql_asr32(x, (unsigned)-up);
-}
-
-ql_vec3_t ql_aim_unit(ql_vec3_t v, ql_real_t length)
-{
-    /* v 2^s has its largest component in [2^29, 2^30); with 1/|v| = m 2^e
-     * a component of the unit vector is v m 2^(e + 29) = high word of
-     * (v 2^s) m, times 2^(e + 61 - s), which is 2, 1 or 1/2 */
-    const ql_real_t inverse = ql_real_recip(length);
-    const uint32_t most = ql_abs32(v.x) | ql_abs32(v.y) | ql_abs32(v.z);
-    const int s = (int)ql_clz32(most) - 2;
-    const int up = inverse.e + 61 - s;
-
-    v.x = shifted(ql_mulhi_su32(shifted(v.x, s), inverse.m), up);
-    v.y = shifted(ql_mulhi_su32(shifted(v.y, s), inverse.m), up);
-    v.z = shifted(ql_mulhi_su32(shifted(v.z, s), inverse.m), up);
-    return v;
-}
 
 #if DIRECTIONS
 /* Set the cosine of a unit direction; false if it is not above the surface. */
@@ -68,7 +31,7 @@ static bool set_direction(
         ql_aim_t *aim, const ql_surface_t *surface, ql_vec3_t w)
 {
     aim->w = w;
-    aim->cosine = scaled(ql_bsdf_cosine(surface, w), -29);
+    aim->cosine = ql_real_scale(ql_bsdf_cosine(surface, w), -29);
     return aim->cosine.m != 0;
 }
 #endif
@@ -80,10 +43,11 @@ static bool aim_cosine(
 {
     const ql_vec3_t n = ql_bsdf_normal(surface);
     const ql_vec3_t v = ql_warp_cosine_hemisphere(n, u.u1, u.u2);
-    const ql_real_t square = length_squared(v);
+    const ql_real_t square = ql_vec_square(v);
 
-    if (square.m == 0 || !set_direction(aim, surface,
-                                 ql_aim_unit(v, ql_real_sqrt(square)))) {
+    if (square.m == 0 ||
+            !set_direction(aim, surface,
+                    ql_vec_unit_q29_of_length(v, ql_real_sqrt(square)))) {
         return false;
     }
     aim->inverse = pi_times(ql_real_recip(aim->cosine), 0);
@@ -105,15 +69,16 @@ static bool aim_point(const ql_scene_t *scene, uint16_t light,
     if (cos_light == 0) {
         return false;
     }
-    square = length_squared(w);
+    square = ql_vec_square(w);
     length = ql_real_sqrt(square);
-    aim->w = ql_aim_unit(w, length);
+    aim->w = ql_vec_unit_q29_of_length(w, length);
     aim->cosine =
             ql_real_mul(ql_bsdf_cosine(surface, w), ql_real_recip(length));
     /* A cos' / r^2 with A cos' = -N.w / (2 |w|); lengths carry f bits */
-    aim->inverse = scaled(ql_real_mul(ql_real_from_u64(cos_light),
+    aim->inverse =
+            ql_real_scale(ql_real_mul(ql_real_from_u64(cos_light),
                                   ql_real_recip(ql_real_mul(square, length))),
-            2 * QL_POS_BITS - 1);
+                    2 * QL_POS_BITS - 1);
     aim->to = point.q;
     return aim->cosine.m != 0;
 }
@@ -184,11 +149,9 @@ static int aim_spherical(const ql_scene_t *scene, const ql_blob_tri_t *tri,
         v[i] = ql_scene_corner(scene, tri, i);
     }
     n = ql_vec_cross(ql_vec_sub(v[1], v[0]), ql_vec_sub(v[2], v[0]));
-    height = -ql_vec_dot_n(corner_from(v[0], surface->p), n);
+    height = -ql_vec_dot_normal(corner_from(v[0], surface->p), n);
     if (height < 0 && ql_scene_two_sided(scene)) {
-        n.x = -n.x; /* |n| < 2^31 */
-        n.y = -n.y;
-        n.z = -n.z;
+        n = ql_vec_neg(n); /* |n| < 2^31 */
         height = -height;
     }
     if (height <= 0) {
@@ -220,7 +183,7 @@ static ql_pos_t from_q8(int64_t x)
 }
 
 /* p + t w, t in 1/256 grid units below 2^26. */
-static ql_vec3_t along(ql_vec3_t p, ql_vec3_t w, int64_t t)
+static ql_vec3_t point_along(ql_vec3_t p, ql_vec3_t w, int64_t t)
 {
     const ql_vec3_t r = {p.x + from_q8(ql_asr64(t * w.x, 29)),
             p.y + from_q8(ql_asr64(t * w.y, 29)),
@@ -265,16 +228,16 @@ static ql_real_t cone_of(
 static bool aim_cone(const ql_blob_sphere_t *sphere, ql_vec3_t offset,
         const ql_surface_t *surface, ql_uniform2_t u, ql_aim_t *aim)
 {
-    const ql_real_t square = length_squared(offset);
+    const ql_real_t square = ql_vec_square(offset);
     const ql_real_t distance = ql_real_sqrt(square);
     const ql_real_t s_max = cone_of(sphere, square);
     const ql_vec3_t local = ql_warp_cone(s_max, u.u1, u.u2);
-    const ql_vec3_t axis = {-offset.x, -offset.y, -offset.z};
     ql_frame_t frame;
     uint32_t sine2, ratio2, root;
     int64_t near;
 
-    ql_frame_from_normal(&frame, ql_aim_unit(axis, distance));
+    ql_frame_from_normal(
+            &frame, ql_vec_unit_q29_of_length(ql_vec_neg(offset), distance));
     if (!set_direction(aim, surface, ql_frame_to_world(&frame, local))) {
         return false;
     }
@@ -288,7 +251,7 @@ static bool aim_cone(const ql_blob_sphere_t *sphere, ql_vec3_t offset,
             ql_real_mul(radius_squared(sphere), ql_real_recip(square)));
     root = ratio2 > sine2 ? ql_sqrt_uq32(ratio2 - sine2) >> 3 : 0;
     near = local.z > (int32_t)root ? local.z - (int32_t)root : 0;
-    aim->to = along(
+    aim->to = point_along(
             surface->p, aim->w, ql_asr64((int64_t)whole(distance) * near, 29));
     return true;
 }
@@ -312,14 +275,14 @@ static bool aim_ball_area(const ql_blob_sphere_t *sphere, ql_vec3_t offset,
     if (side > 0 ? facing >= 0 : facing <= 0) {
         return false; /* hidden by the sphere itself */
     }
-    square = length_squared(w);
+    square = ql_vec_square(w);
     length = ql_real_sqrt(square);
-    if (!set_direction(aim, surface, ql_aim_unit(w, length))) {
+    if (!set_direction(aim, surface, ql_vec_unit_q29_of_length(w, length))) {
         return false;
     }
     /* 4 pi R^2 cos' / r^2, v s2.29 */
     aim->inverse = ql_real_mul(pi_times(radius_squared(sphere), 2),
-            ql_real_mul(scaled(ql_real_from_u64(ql_abs64(facing)), -29),
+            ql_real_mul(ql_real_scale(ql_real_from_u64(ql_abs64(facing)), -29),
                     ql_real_recip(ql_real_mul(square, length))));
     aim->to.x = surface->p.x + from_q8(w.x);
     aim->to.y = surface->p.y + from_q8(w.y);
@@ -350,7 +313,7 @@ static bool aim_ball(const ql_scene_t *scene, unsigned direct,
             (side == 0 && ql_vec_dot(offset, aim->w) >= 0)) {
         return false; /* from a point on it, half of the directions leave */
     }
-    aim->to = along(surface->p, aim->w, way_out(offset, side, aim->w));
+    aim->to = point_along(surface->p, aim->w, way_out(offset, side, aim->w));
     return true;
 }
 #endif
@@ -419,15 +382,16 @@ static ql_real_t triangle_inverse(const ql_scene_t *scene, const ql_ray_t *ray,
     const ql_vec3_t v0 = ql_scene_corner(scene, tri, 0);
     const ql_vec3_t e1 = ql_vec_sub(ql_scene_corner(scene, tri, 1), v0);
     const ql_vec3_t e2 = ql_vec_sub(ql_scene_corner(scene, tri, 2), v0);
-    const int64_t facing = ql_vec_dot_n(ray->direction, ql_vec_cross(e1, e2));
-    const ql_real_t way = scaled(ql_real_from_u64(t), -30);
-    const ql_real_t square = length_squared(ray->direction);
+    const int64_t facing =
+            ql_vec_dot_normal(ray->direction, ql_vec_cross(e1, e2));
+    const ql_real_t way = ql_real_scale(ql_real_from_u64(t), -30);
+    const ql_real_t square = ql_vec_square(ray->direction);
     const ql_real_t below = ql_real_mul(
             ql_real_mul(way, way), ql_real_mul(square, ql_real_sqrt(square)));
 
     /* |N.d| / (2 t^2 |d|^3), as for a point at t d */
-    return scaled(ql_real_mul(ql_real_from_u64(ql_abs64(facing)),
-                          ql_real_recip(below)),
+    return ql_real_scale(ql_real_mul(ql_real_from_u64(ql_abs64(facing)),
+                                 ql_real_recip(below)),
             2 * QL_POS_BITS - 1);
 }
 
@@ -436,7 +400,7 @@ static ql_real_t cosine_inverse(
         const ql_surface_t *surface, ql_vec3_t direction)
 {
     const ql_real_t cosine = ql_real_mul(ql_bsdf_cosine(surface, direction),
-            ql_real_recip(ql_real_sqrt(length_squared(direction))));
+            ql_real_recip(ql_real_sqrt(ql_vec_square(direction))));
 
     return pi_times(ql_real_recip(cosine), 0);
 }
@@ -462,7 +426,7 @@ ql_real_t ql_aim_inverse(const ql_scene_t *scene, const ql_surface_t *surface,
         const ql_vec3_t offset = ql_sphere_offset(sphere, ray->origin);
 
         return ql_sphere_side(sphere, offset) > 0
-                       ? pi_times(cone_of(sphere, length_squared(offset)), 1)
+                       ? pi_times(cone_of(sphere, ql_vec_square(offset)), 1)
                        : cosine_inverse(surface, ray->direction);
     }
 #endif

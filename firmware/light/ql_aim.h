@@ -81,23 +81,13 @@ QL_INLINE uint64_t ql_aim_at_point(const ql_scene_t *scene, uint16_t light,
 
     ql_light_point(scene, light, u.u1, u.u2, point);
     *w = ql_vec_sub(point->q, p);
-    if (ql_scene_two_sided(scene) && ql_vec_dot_n(*w, point->n) > 0) {
-        point->n.x = -point->n.x; /* |n| < 2^31 */
-        point->n.y = -point->n.y;
-        point->n.z = -point->n.z;
+    if (ql_scene_two_sided(scene) && ql_vec_dot_normal(*w, point->n) > 0) {
+        point->n = ql_vec_neg(point->n); /* |n| < 2^31 */
     }
     (void)ql_surface_step(&point->q, &point->corner, &point->n);
     *w = ql_vec_sub(point->q, p);
-    facing = -ql_vec_dot_n_of(w, &point->n);
+    facing = -ql_vec_dot_normal_ptr(w, &point->n);
     return facing > 0 ? (uint64_t)facing : 0;
 }
-
-/* Unit vector of a real length.
- *
- *   v       -      not zero, components below 2^30
- *   length  real   |v|, or a little more
- *   return  s2.29  v / |v|
- */
-ql_vec3_t ql_aim_unit(ql_vec3_t v, ql_real_t length);
 
 #endif

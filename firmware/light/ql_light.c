@@ -55,14 +55,13 @@ static uint32_t equal_bound(uint32_t i, uint32_t n)
 ql_real_t ql_light_weight(const ql_scene_t *scene, unsigned choice,
         unsigned samples, uint16_t index)
 {
-    static const ql_real_t inv_2pi = {0xa2f9836eu, -34}; /* 1 / (2 pi) */
     const uint32_t n = scene->light_count;
     ql_real_t weight;
 
     if (choice == QL_LIGHTS_POWER) {
         weight = ql_light_power_weight(scene->lights + index);
     } else {
-        weight = inv_2pi;
+        weight = QL_REAL_INV_2PI;
     }
     if (choice == QL_LIGHTS_UNIFORM && n > 1) {
         /* the bound after the last is 2^32, which wraps */
@@ -70,7 +69,7 @@ ql_real_t ql_light_weight(const ql_scene_t *scene, unsigned choice,
                 equal_bound((uint32_t)index + 1, n) - equal_bound(index, n);
 
         weight = ql_real_mul(weight, ql_real_recip(ql_real_from_u64(share)));
-        weight.e = (int16_t)(weight.e + 32);
+        weight = ql_real_scale(weight, 32);
     }
     if (samples > 1) {
         weight = ql_real_mul(weight, ql_real_recip(ql_real_from_u64(samples)));
@@ -110,6 +109,6 @@ void ql_light_point(const ql_scene_t *scene, uint16_t index, ql_uq32_t u1,
     point->q.y = blend(t.v0.y, t.e1.y, t.e2.y, b1, b2);
     point->q.z = blend(t.v0.z, t.e1.z, t.e2.z, b1, b2);
     point->corner = t.v0;
-    ql_vec_cross_to(&point->n, &t.e1, &t.e2);
+    ql_vec_cross_ptr(&point->n, &t.e1, &t.e2);
     point->material = ql_scene_material(scene, tri);
 }

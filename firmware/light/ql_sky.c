@@ -10,6 +10,8 @@
 
 #if QL_CFG_SKY_MAP
 
+#define TWO_PI2 QL_REAL(0x9de9e64du, -27) /* 2 pi^2 */
+
 static ql_table_t map_table(const ql_scene_t *scene)
 {
     const ql_blob_distribution_t *from =
@@ -41,10 +43,8 @@ static void texel_emission(const ql_scene_t *scene, const ql_table_t *table,
 static ql_real_t inverse_pdf(
         const ql_table_t *table, uint64_t mass, ql_real_t sine)
 {
-    const ql_real_t two_pi2 = {0x9de9e64du, -27};
-
-    return ql_real_over(
-            ql_real_times(two_pi2, sine), ql_table_density(table, mass));
+    return ql_real_div(
+            ql_real_mul_call(TWO_PI2, sine), ql_table_density(table, mass));
 }
 
 /* A direction as the map has it. */
@@ -99,12 +99,12 @@ static void map_radiance(const ql_scene_t *scene, ql_vec3_t d,
     texel_emission(scene, &table, cell, emission);
     if (inverse != NULL) {
         *inverse = inverse_pdf(&table, ql_table_mass(&table, cell),
-                ql_real_over(place.flat, place.length));
+                ql_real_div(place.flat, place.length));
     }
 }
 
 /* Product of two s1.30, s2.29 to nearest; below 2^61. */
-static ql_q29_t product(int32_t a, int32_t b)
+static ql_q29_t multiply(int32_t a, int32_t b)
 {
     return (ql_q29_t)ql_asr64(ql_asr64((int64_t)a * b, 30) + 1, 1);
 }
@@ -112,7 +112,6 @@ static ql_q29_t product(int32_t a, int32_t b)
 ql_real_t ql_sky_sample(const ql_scene_t *scene, ql_uq32_t u1, ql_uq32_t u2,
         ql_vec3_t *w, ql_uq32_t emission[3])
 {
-    const ql_real_t pi = {0xc90fdaa2u, -30};
     const ql_table_t table = map_table(scene);
     const ql_uq32_t u[2] = {u1, u2};
     ql_table_point_t point;
@@ -125,15 +124,15 @@ ql_real_t ql_sky_sample(const ql_scene_t *scene, ql_uq32_t u1, ql_uq32_t u2,
     v = point.x[1];
     ql_sincos(v >> 1, &sin_theta, &cos_theta);
     ql_sincos(point.x[0] + QL_LE32(scene->sky->rotate), &sine, &cosine);
-    w->x = product(sin_theta, sine);
+    w->x = multiply(sin_theta, sine);
     w->y = ql_asr32(cos_theta + 1, 1);
-    w->z = product(sin_theta, cosine);
+    w->z = multiply(sin_theta, cosine);
 
     /* the sine of ql_sincos() is not good enough near the poles: from the
      * nearer one, at the midpoint of v, so never 0 */
     v = v < 0x80000000u ? v : ~v;
     return inverse_pdf(&table, point.mass,
-            ql_real_sin(ql_real_times(pi, ql_real_midpoint(v))));
+            ql_real_sin(ql_real_mul_call(QL_REAL_PI, ql_real_midpoint(v))));
 }
 
 #endif
@@ -152,9 +151,7 @@ void ql_sky_radiance(const ql_scene_t *scene, ql_vec3_t d,
         emission[i] = QL_LE32(scene->sky->emission[i]);
     }
     if (inverse != NULL) {
-        const ql_real_t none = {0, 0};
-
-        *inverse = none;
+        *inverse = QL_REAL_ZERO;
     }
 }
 

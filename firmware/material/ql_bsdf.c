@@ -3,62 +3,34 @@
 
 #include "material/ql_bsdf.h"
 
+#include "math/ql_frame.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_lobe.h"
 #include "warp/ql_warp.h"
 
-static const ql_real_t none = {0, 0};
-static const ql_real_t one = {0x80000000u, -31};
-static const ql_real_t inverse_pi = {0xa2f9836eu, -33};
-
 /* ---- Real numbers ------------------------------------------------------ */
-
-/* Called from many places: not inline. */
-static ql_real_t real_recip(ql_real_t a)
-{
-    return ql_real_recip(a);
-}
-
-static ql_real_t real_from(uint64_t n, int16_t e)
-{
-    ql_real_t r = ql_real_from_u64(n);
-
-    r.e = (int16_t)(r.e + e);
-    return r;
-}
 
 /* c 2^-31 */
 static ql_real_t real_from_uq31(ql_uq31_t c)
 {
-    return real_from(c, -31);
+    return ql_real_from_uq_call(c, 31);
 }
-
-#if QL_CFG_PHONG || QL_CFG_GLASS
-static bool real_below(ql_real_t a, ql_real_t b)
-{
-    return b.m != 0 && (a.m == 0 || a.e < b.e || (a.e == b.e && a.m < b.m));
-}
-#endif
 
 /* x / (1 + x chance): what the balance heuristic leaves of a lobe, if x is the
  * lobe's density over that of the direction. */
 static ql_real_t balanced(ql_real_t x, ql_uq31_t chance)
 {
-    const ql_real_t other = ql_real_times(x, real_from_uq31(chance));
+    const ql_real_t other = ql_real_mul_call(x, real_from_uq31(chance));
 
-    return ql_real_times(x, real_recip(ql_real_add(one, other)));
-}
-
-/* Not inline either. */
-static int64_t dot(ql_vec3_t a, ql_vec3_t b)
-{
-    return ql_vec_dot(a, b);
+    return ql_real_mul_call(
+            x, ql_real_recip_call(ql_real_add(QL_REAL_ONE, other)));
 }
 
 /* ---- The surface ------------------------------------------------------- */
 
 static ql_vec3_t flat_normal(const ql_surface_t *surface)
 {
-    return ql_vec_unit(surface->n, surface->inv_n);
+    return ql_vec_unit_q29_of_inv_n(surface->n, surface->inv_n);
 }
 
 ql_vec3_t ql_bsdf_normal(const ql_surface_t *surface)
@@ -74,28 +46,27 @@ ql_vec3_t ql_bsdf_normal(const ql_surface_t *surface)
 ql_real_t ql_bsdf_cosine(const ql_surface_t *surface, ql_vec3_t w)
 {
     /* three products of less than 2^30 2^31 */
-    const int64_t above = dot(w, surface->n);
-    ql_real_t inverse; /* 1 / |n| */
+    const int64_t above = ql_vec_dot_call(w, surface->n);
 
     if (above <= 0) {
-        return none;
+        return QL_REAL_ZERO;
     }
 #if QL_CFG_SMOOTH
     if (surface->smooth) {
-        const int64_t cosine = dot(w, surface->shade);
+        const int64_t cosine = ql_vec_dot_call(w, surface->shade);
 
-        return cosine > 0 ? real_from((uint64_t)cosine, -29) : none;
+        return cosine > 0 ? ql_real_from_uq_call((uint64_t)cosine, 29)
+                          : QL_REAL_ZERO;
     }
 #endif
-    inverse.m = surface->inv_n & ~(uint32_t)31;
-    inverse.e = (int16_t)(-31 - (int16_t)(surface->inv_n & 31u));
-    return ql_real_times(ql_real_from_u64((uint64_t)above), inverse);
+    return ql_real_mul_call(ql_real_from_u64((uint64_t)above),
+            ql_vec_unit_unpack_inv_n(surface->inv_n));
 }
 
 /* Is a rounded direction strictly above the surface? */
 QL_INLINE bool is_above(const ql_surface_t *surface, ql_vec3_t direction)
 {
-    return ql_vec_dot_n(direction, surface->n) > 0;
+    return ql_vec_dot_normal(direction, surface->n) > 0;
 }
 
 /* ---- The diffuse lobe -------------------------------------------------- */
@@ -115,15 +86,16 @@ static ql_real_t cosine_pdf(int64_t product)
 {
     const uint64_t twice = product > 0 ? (uint64_t)product : 1u; /* 2^-58 */
 
-    return ql_real_times(ql_real_sqrt(real_from(twice, -59)), inverse_pi);
+    return ql_real_mul_call(
+            ql_real_sqrt(ql_real_from_uq_call(twice, 59)), QL_REAL_INV_PI);
 }
 
 ql_vec3_t ql_bsdf_diffuse(const ql_surface_t *surface, ql_uniform2_t u)
 {
     const ql_vec3_t n = flat_normal(surface);
-    const ql_vec3_t d = ql_dir_round(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
+    const ql_vec3_t d = ql_vec_to_dir(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
 
-    return is_above(surface, d) ? d : ql_dir_round(n);
+    return is_above(surface, d) ? d : ql_vec_to_dir(n);
 }
 
 /* Cosine-distributed. About a smooth normal it may be below the surface. */
@@ -134,13 +106,14 @@ static bool cosine_direction(const ql_surface_t *surface, ql_uniform2_t u,
     const ql_vec3_t v = ql_warp_cosine_hemisphere(n, u.u1, u.u2);
     bool above;
 
-    sample->direction = ql_dir_round(v);
+    sample->direction = ql_vec_to_dir(v);
     above = is_above(surface, sample->direction);
     if (!above) {
-        sample->direction = ql_dir_round(n); /* as ql_bsdf_diffuse() */
+        sample->direction = ql_vec_to_dir(n); /* as ql_bsdf_diffuse() */
     }
     if (QL_CFG_STRATEGIES && pdf) {
-        sample->pdf = above ? cosine_pdf(dot(v, n)) : inverse_pi;
+        sample->pdf =
+                above ? cosine_pdf(ql_vec_dot_call(v, n)) : QL_REAL_INV_PI;
     }
     return above || !ql_surface_is_smooth(surface);
 }
@@ -154,8 +127,8 @@ static bool uniform_direction(const ql_surface_t *surface, ql_uniform2_t u,
     ql_frame_t frame;
 
     ql_frame_from_normal(&frame, ql_bsdf_normal(surface));
-    sample->direction = ql_dir_round(ql_frame_to_world(&frame, local));
-    *factor = real_from((uint32_t)local.z, -28); /* z >= 0 */
+    sample->direction = ql_vec_to_dir(ql_frame_to_world(&frame, local));
+    *factor = ql_real_from_uq_call((uint32_t)local.z, 28); /* z >= 0 */
     return factor->m != 0 && is_above(surface, sample->direction);
 }
 #endif
@@ -172,7 +145,7 @@ static bool draw_direction(const ql_surface_t *surface, ql_density_t density,
 #else
     (void)density;
 #endif
-    *factor = one;
+    *factor = QL_REAL_ONE;
     return cosine_direction(surface, u, sample, pdf);
 }
 
@@ -200,30 +173,8 @@ static bool sample_diffuse(const ql_bsdf_t *bsdf, ql_density_t density,
 static void divide(ql_rgb_t *weight, ql_uq31_t chance)
 {
     if (chance != QL_UQ31_ONE) {
-        ql_rgb_scale(weight, real_recip(real_from_uq31(chance)));
+        ql_rgb_scale(weight, ql_real_recip_call(real_from_uq31(chance)));
     }
-}
-
-/* v of a direction, components up to 2^30, as s2.29 unit vector; zero of zero.
- * Error: each to nearest, and the length that of ql_rsqrt_m(). */
-static ql_vec3_t unit(ql_vec3_t v)
-{
-    const uint64_t square = (uint64_t)dot(v, v);   /* below 2^62 */
-    const unsigned zeros = ql_clz64(square) & ~1u; /* 2 or more */
-    const int32_t scale =
-            zeros < 64 ? (int32_t)((uint32_t)1 << (zeros / 2 - 1)) : 0;
-    uint32_t r;
-
-    if (square == 0) {
-        return v;
-    }
-    /* |v| = sqrt(m) 2^(16 - zeros/2) with m in [2^30, 2^32), so v scale is
-     * below 2^31; r = 2^47 / sqrt(m), and v scale r 2^-32 is v / |v| 2^30 */
-    r = ql_rsqrt_m((uint32_t)(square << zeros >> 32));
-    v.x = ql_asr32(ql_mulhi_su32(v.x * scale, r) + 1, 1);
-    v.y = ql_asr32(ql_mulhi_su32(v.y * scale, r) + 1, 1);
-    v.z = ql_asr32(ql_mulhi_su32(v.z * scale, r) + 1, 1);
-    return v;
 }
 
 /* x - (twice y 2^-29), to nearest: below 3 2^29 for unit vectors */
@@ -238,7 +189,8 @@ static QL_NOINLINE int32_t mirrored_part(int32_t x, int32_t twice, int32_t y)
 static QL_NOINLINE ql_vec3_t mirrored(ql_vec3_t v, ql_vec3_t n)
 {
     /* 2 (v.n) in s2.29, to nearest: the sum is below 2^59 */
-    const int32_t twice = (int32_t)ql_asr64(dot(v, n) + (1L << 27), 28);
+    const int32_t twice =
+            (int32_t)ql_asr64(ql_vec_dot_call(v, n) + (1L << 27), 28);
 
     v.x = mirrored_part(v.x, twice, n.x);
     v.y = mirrored_part(v.y, twice, n.y);
@@ -249,7 +201,7 @@ static QL_NOINLINE ql_vec3_t mirrored(ql_vec3_t v, ql_vec3_t n)
 /* v, turned across the surface's plane if it is not on the side wanted. */
 static ql_vec3_t turned(const ql_surface_t *surface, ql_vec3_t v, bool below)
 {
-    const int64_t side = dot(v, surface->n); /* below 2^62 */
+    const int64_t side = ql_vec_dot_call(v, surface->n); /* below 2^62 */
 
     return (below ? side < 0 : side > 0) ? v
                                          : mirrored(v, flat_normal(surface));
@@ -268,17 +220,17 @@ static bool set_delta(const ql_surface_t *surface, ql_vec3_t v, bool through,
 
     sample->delta = true;
     sample->through = through;
-    sample->pdf = none;
-    sample->direction = ql_dir_round(v);
-    if (dot(sample->direction, n) <= 0) {
-        const ql_vec3_t off = ql_vec_unit(n, surface->inv_n);
+    sample->pdf = QL_REAL_ZERO;
+    sample->direction = ql_vec_to_dir(v);
+    if (ql_vec_dot_call(sample->direction, n) <= 0) {
+        const ql_vec3_t off = ql_vec_unit_q29_of_inv_n(n, surface->inv_n);
 
         v.x += ql_asr32(off.x, QL_DIR_BITS - 2);
         v.y += ql_asr32(off.y, QL_DIR_BITS - 2);
         v.z += ql_asr32(off.z, QL_DIR_BITS - 2);
-        sample->direction = ql_dir_round(v);
+        sample->direction = ql_vec_to_dir(v);
     }
-    return dot(sample->direction, n) > 0;
+    return ql_vec_dot_call(sample->direction, n) > 0;
 }
 #endif
 
@@ -286,7 +238,8 @@ static bool set_delta(const ql_surface_t *surface, ql_vec3_t v, bool through,
  * is below it. */
 static ql_vec3_t facing(const ql_bsdf_t *bsdf)
 {
-    return ql_surface_is_smooth(bsdf->surface) && dot(bsdf->in, bsdf->n) >= 0
+    return ql_surface_is_smooth(bsdf->surface) &&
+                           ql_vec_dot_call(bsdf->in, bsdf->n) >= 0
                    ? flat_normal(bsdf->surface)
                    : bsdf->n;
 }
@@ -297,7 +250,8 @@ static ql_vec3_t facing(const ql_bsdf_t *bsdf)
 /* (n + 2) / (n + 1), from n and 1 / (n + 1) */
 static ql_real_t lobe_ratio(ql_uq16_t power, ql_real_t inverse)
 {
-    return ql_real_times(real_from((uint64_t)power + 131072u, -16), inverse);
+    return ql_real_mul_call(
+            ql_real_from_uq_call((uint64_t)power + 131072u, 16), inverse);
 }
 
 /* (n + 1)/(2 pi) cos^n of the angle between w and the mirror direction. */
@@ -305,10 +259,10 @@ static ql_real_t lobe_density(const ql_bsdf_t *bsdf, ql_vec3_t w)
 {
     /* 2 (1 - cos) 2^58: of unit vectors, below 2^61 */
     const ql_vec3_t apart = ql_vec_sub(w, bsdf->axis);
-    const uint64_t square = (uint64_t)dot(apart, apart);
+    const uint64_t square = (uint64_t)ql_vec_dot_call(apart, apart);
 
     if (square >> 59 != 0) {
-        return none;
+        return QL_REAL_ZERO;
     }
     return ql_warp_power_lobe_pdf(QL_LE32(bsdf->gloss->parameter),
             (uint32_t)((square + (1ul << 27)) >> 28));
@@ -319,7 +273,7 @@ static void add_lobe(const ql_bsdf_t *bsdf, ql_vec3_t w, ql_real_t cosine,
         ql_real_t inverse, bool mis, ql_rgb_t *r)
 {
     const ql_uq16_t power = QL_LE32(bsdf->gloss->parameter);
-    ql_real_t part = ql_real_times(lobe_density(bsdf, w), inverse);
+    ql_real_t part = ql_real_mul_call(lobe_density(bsdf, w), inverse);
     ql_rgb_t lobe;
 
     if (part.m == 0 || !set_weight(&lobe, bsdf->gloss->specular)) {
@@ -328,9 +282,9 @@ static void add_lobe(const ql_bsdf_t *bsdf, ql_vec3_t w, ql_real_t cosine,
     if (QL_CFG_STRATEGIES && mis) {
         part = balanced(part, QL_LE32(bsdf->gloss->chance));
     }
-    part = ql_real_times(part, cosine);
+    part = ql_real_mul_call(part, cosine);
     ql_rgb_scale(&lobe,
-            ql_real_times(part, lobe_ratio(power, ql_lobe_inverse(power))));
+            ql_real_mul_call(part, lobe_ratio(power, ql_lobe_inverse(power))));
     ql_rgb_add(r, &lobe);
 }
 
@@ -349,21 +303,21 @@ static bool sample_lobe(const ql_bsdf_t *bsdf, ql_uniform2_t u,
 
     ql_frame_from_normal(&frame, bsdf->axis);
     w = ql_frame_to_world(&frame, ql_warp_power_lobe(inverse, u.u1, u.u2, &s));
-    sample->direction = ql_dir_round(w);
-    above = dot(w, bsdf->n); /* 2^-58 */
+    sample->direction = ql_vec_to_dir(w);
+    above = ql_vec_dot_call(w, bsdf->n); /* 2^-58 */
     if (above <= 0 || !is_above(bsdf->surface, sample->direction) ||
             !set_weight(&sample->weight, bsdf->gloss->specular)) {
         return false;
     }
-    cosine = real_from((uint64_t)above, -58);
-    cosine = real_below(cosine, one) ? cosine : one;
-    cosine = ql_real_times(cosine, lobe_ratio(power, inverse));
+    cosine = ql_real_from_uq_call((uint64_t)above, 58);
+    cosine = ql_real_less(cosine, QL_REAL_ONE) ? cosine : QL_REAL_ONE;
+    cosine = ql_real_mul_call(cosine, lobe_ratio(power, inverse));
     ql_rgb_scale(&sample->weight, cosine);
     divide(&sample->weight, chance);
     if (QL_CFG_STRATEGIES && pdf) {
         /* rounded, s may be 1, where the density ends */
         s = s < QL_UQ31_ONE ? s : QL_UQ31_ONE - 1;
-        sample->pdf = ql_real_times(
+        sample->pdf = ql_real_mul_call(
                 ql_warp_power_lobe_pdf(power, s), real_from_uq31(chance));
     }
     return true;
@@ -373,15 +327,14 @@ static bool sample_lobe(const ql_bsdf_t *bsdf, ql_uniform2_t u,
 static bool sample_both(const ql_bsdf_t *bsdf, ql_density_t density,
         ql_uniform2_t u, ql_bsdf_sample_t *sample)
 {
-    static const ql_real_t pi = {0xc90fdaa2u, -30};
     ql_real_t factor;
 
     if (!draw_direction(bsdf->surface, density, u, sample, &factor, false)) {
         return false;
     }
     /* f cos / density = f factor pi */
-    ql_bsdf_reflect(
-            bsdf, unit(sample->direction), factor, pi, false, &sample->weight);
+    ql_bsdf_reflect(bsdf, ql_vec_unit_q29(sample->direction), factor,
+            QL_REAL_PI, false, &sample->weight);
     return ql_rgb_most(&sample->weight) != 0;
 }
 #endif
@@ -400,28 +353,19 @@ typedef struct {
     ql_uq32_t reflectance;
 } boundary_t;
 
-/* floor(a 2^32), below 2^32. */
-static ql_uq32_t to_uq32(ql_real_t a)
-{
-    if (a.e > -32) {
-        return a.m == 0 ? 0 : 0xffffffffu;
-    }
-    return a.e > -64 ? a.m >> (unsigned)(-32 - a.e) : 0;
-}
-
 /* |a - b| */
 static ql_real_t distance(ql_real_t a, ql_real_t b)
 {
-    return real_below(a, b) ? ql_real_sub(b, a) : ql_real_sub(a, b);
+    return ql_real_less(a, b) ? ql_real_sub(b, a) : ql_real_sub(a, b);
 }
 
 /* ((a - b) / (a + b))^2 */
 static ql_real_t square_of_ratio(ql_real_t a, ql_real_t b)
 {
-    const ql_real_t inverse = real_recip(ql_real_add(a, b));
-    const ql_real_t ratio = ql_real_times(distance(a, b), inverse);
+    const ql_real_t inverse = ql_real_recip_call(ql_real_add(a, b));
+    const ql_real_t ratio = ql_real_mul_call(distance(a, b), inverse);
 
-    return ql_real_times(ratio, ratio);
+    return ql_real_mul_call(ratio, ratio);
 }
 
 /* Let a ray that comes at cosine c, u1.31 in [0, 1], meet a boundary whose
@@ -432,20 +376,19 @@ static bool meet_boundary(boundary_t *b, ql_uq31_t c)
 {
     const uint64_t cc = (uint64_t)c * c;
     const ql_real_t cosine = real_from_uq31(c);
-    const ql_real_t sine2 = real_from(((uint64_t)1 << 62) - cc, -62);
+    const ql_real_t sine2 = ql_real_from_uq_call(((uint64_t)1 << 62) - cc, 62);
     ql_real_t g, x;
 
-    b->square = ql_real_times(b->index, b->index);
-    b->denser = !real_below(b->square, one);
-    if (!real_below(sine2, b->square)) {
+    b->square = ql_real_mul_call(b->index, b->index);
+    b->denser = !ql_real_less(b->square, QL_REAL_ONE);
+    if (!ql_real_less(sine2, b->square)) {
         return false;
     }
     g = ql_real_sqrt(ql_real_sub(b->square, sine2));
     b->bend = distance(cosine, g);
     x = ql_real_add(square_of_ratio(cosine, g),
-            square_of_ratio(g, ql_real_times(b->square, cosine)));
-    x.e = (int16_t)(x.e - 1);
-    b->reflectance = to_uq32(x);
+            square_of_ratio(g, ql_real_mul_call(b->square, cosine)));
+    b->reflectance = ql_real_to_uq32(ql_real_scale(x, -1));
     return true;
 }
 
@@ -459,10 +402,11 @@ static QL_NOINLINE int32_t refracted_part(
 /* Direction behind the boundary, of length 1 or N, whichever is less. */
 static ql_vec3_t refracted(const boundary_t *b, ql_vec3_t in, ql_vec3_t n)
 {
-    const ql_real_t scale = b->denser ? real_recip(b->index) : one;
+    const ql_real_t scale =
+            b->denser ? ql_real_recip_call(b->index) : QL_REAL_ONE;
     const int32_t side = b->denser ? -1 : 1;
-    const uint32_t along = to_uq32(scale);
-    const uint32_t bend = to_uq32(ql_real_times(b->bend, scale));
+    const uint32_t along = ql_real_to_uq32(scale);
+    const uint32_t bend = ql_real_to_uq32(ql_real_mul_call(b->bend, scale));
 
     in.x = refracted_part(in.x, along, n.x * side, bend);
     in.y = refracted_part(in.y, along, n.y * side, bend);
@@ -473,7 +417,7 @@ static ql_vec3_t refracted(const boundary_t *b, ql_vec3_t in, ql_vec3_t n)
 /* Cosine of the angle the ray comes at, in [0, 1]. */
 static ql_uq31_t cosine_between(ql_vec3_t in, ql_vec3_t n)
 {
-    const int64_t product = -dot(in, n); /* 2^-58, below 2^59 */
+    const int64_t product = -ql_vec_dot_call(in, n); /* 2^-58, below 2^59 */
     const uint64_t c = product > 0 ? (uint64_t)product >> 27 : 0;
 
     return c < QL_UQ31_ONE ? (ql_uq31_t)c : QL_UQ31_ONE;
@@ -487,8 +431,8 @@ static bool sample_glass(
     const ql_vec3_t n = facing(bsdf);
     boundary_t b;
 
-    b.index = real_from(QL_LE32(bsdf->gloss->parameter), -16);
-    b.index = bsdf->front ? b.index : real_recip(b.index);
+    b.index = ql_real_from_uq_call(QL_LE32(bsdf->gloss->parameter), 16);
+    b.index = bsdf->front ? b.index : ql_real_recip_call(b.index);
     if (!meet_boundary(&b, cosine_between(bsdf->in, n)) ||
             pick < b.reflectance) {
         (void)set_weight(&sample->weight, white);
@@ -497,7 +441,7 @@ static bool sample_glass(
     if (!set_weight(&sample->weight, bsdf->gloss->specular)) {
         return false;
     }
-    ql_rgb_scale(&sample->weight, real_recip(b.square));
+    ql_rgb_scale(&sample->weight, ql_real_recip_call(b.square));
     return set_delta(bsdf->surface,
             turned(bsdf->surface, refracted(&b, bsdf->in, n), true), true,
             sample);
@@ -557,7 +501,7 @@ static bool sample_gloss(const ql_bsdf_t *bsdf, ql_density_t density,
     if (QL_CFG_STRATEGIES && pdf) {
         const ql_real_t rest = real_from_uq31(QL_UQ31_ONE - chance);
 
-        sample->pdf = ql_real_times(sample->pdf, rest);
+        sample->pdf = ql_real_mul_call(sample->pdf, rest);
     }
     return true;
 }
@@ -565,7 +509,7 @@ static bool sample_gloss(const ql_bsdf_t *bsdf, ql_density_t density,
 static void begin_gloss(ql_bsdf_t *bsdf, ql_vec3_t incoming)
 {
     bsdf->n = ql_bsdf_normal(bsdf->surface);
-    bsdf->in = unit(incoming);
+    bsdf->in = ql_vec_unit_q29(incoming);
     bsdf->axis = turned(bsdf->surface, mirrored(bsdf->in, facing(bsdf)), false);
 }
 
@@ -607,7 +551,8 @@ bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, bool delta,
 void ql_bsdf_reflect(const ql_bsdf_t *bsdf, ql_vec3_t w, ql_real_t cosine,
         ql_real_t inverse, bool mis, ql_rgb_t *r)
 {
-    ql_real_t part = ql_real_times(ql_real_times(cosine, inverse_pi), inverse);
+    ql_real_t part =
+            ql_real_mul_call(ql_real_mul_call(cosine, QL_REAL_INV_PI), inverse);
     ql_uq31_t chance = QL_UQ31_ONE;
 
 #if QL_GLOSS

@@ -75,18 +75,28 @@ uint32_t ql_rsqrt_warp_m(uint32_t m)
 }
 #endif
 
-ql_real_t ql_real_times(ql_real_t a, ql_real_t b)
+ql_real_t ql_real_from_uq_call(uint64_t n, unsigned bits)
+{
+    return ql_real_scale(ql_real_from_u64(n), -(int32_t)bits);
+}
+
+ql_real_t ql_real_mul_call(ql_real_t a, ql_real_t b)
 {
     return ql_real_mul(a, b);
 }
 
-ql_real_t ql_real_over(ql_real_t a, ql_real_t b)
+ql_real_t ql_real_recip_call(ql_real_t a)
+{
+    return ql_real_recip(a);
+}
+
+ql_real_t ql_real_div(ql_real_t a, ql_real_t b)
 {
     return ql_real_mul(a, ql_real_recip(b));
 }
 
 /* m 2^-shift, or 0. */
-static uint32_t shifted(ql_real_t a, int shift)
+static uint32_t mantissa_down(ql_real_t a, int32_t shift)
 {
     return shift < 32 ? a.m >> shift : 0;
 }
@@ -98,10 +108,10 @@ ql_real_t ql_real_add(ql_real_t a, ql_real_t b)
     ql_real_t r = most;
 
     if (least.m != 0) {
-        r.m += shifted(least, most.e - least.e);
+        r.m += mantissa_down(least, (int32_t)most.e - least.e);
         if (r.m < most.m) { /* the sum is 2^32 more */
             r.m = 0x80000000u | r.m >> 1;
-            r.e = (int16_t)(r.e + 1);
+            r.e = ql_real_exponent(r.e + 1);
         }
     }
     return r;
@@ -119,12 +129,12 @@ ql_real_t ql_real_sub(ql_real_t a, ql_real_t b)
     if (a.m == 0 || a.e < b.e) {
         return r;
     }
-    rest = shifted(b, a.e - b.e);
+    rest = mantissa_down(b, (int32_t)a.e - b.e);
     if (a.m > rest) {
         rest = a.m - rest;
         zeros = ql_clz32(rest);
         r.m = rest << zeros;
-        r.e = (int16_t)(a.e - (int16_t)zeros);
+        r.e = ql_real_exponent(a.e - (int32_t)zeros);
     }
     return r;
 }
@@ -140,7 +150,7 @@ ql_real_t ql_real_sqrt(ql_real_t a)
     }
     /* a = m 2^-32 2^k, k even; the bit that may be cut is 2^-31 of m */
     m = a.m >> (a.e & 1);
-    root.e = (int16_t)((a.e + 32 + (a.e & 1)) / 2 - 32);
+    root.e = ql_real_exponent((a.e + 32 + (a.e & 1)) / 2 - 32);
     r = ql_rsqrt_m(m);      /* 2^31 / sqrt(m 2^-32), 2^-15 or better */
     s = ql_mulhi_u32(m, r); /* sqrt(m 2^-32) 2^31 <= 2^31 + 2^16 */
     /* a - s^2 in 2^-62: below 2^48.1 in size, for 2^62 has an error of 2^-14;

@@ -17,82 +17,70 @@ typedef struct {
     int16_t e;
 } ql_real_t;
 
-#if QL_CFG_SMALL
-/* With QL_CFG_SMALL each of these is a function, which takes and returns a real
- * as two registers: its mantissa, and its exponent 32 bits further up. */
-QL_INLINE uint64_t ql_real_pack(uint32_t m, int16_t e)
+/* The range of e. Exponents are added in 32 bits, and every sum is within
+ * QL_REAL_EXP_MAX of 0, so that it fits in 16 bits again. Where they come from:
+ *
+ *   numbers   integers of up to 128 bits, the blob's fields and constants have
+ *             |e| <= 128; with the powers of two that their formats ask for,
+ *             |e| <= 160
+ *   products  no value of the renderer is a product of more than 16 of those
+ *             and of two densities of a cos^m lobe, which end at 2^-4096
+ *             (ql_warp_power_lobe_pdf()): |e| < 16 160 + 2 4256 < 11100
+ *   colours   a path multiplies its throughput up by less than 2^64 at each of
+ *             its 64 bounces, so by 2^4096 in all; ql_rgb.c makes one below
+ *             2^QL_RGB_EXP_MIN zero. A colour times a value of the renderer is
+ *             within 8192 + 11100 = 19292 until it is made zero
+ *
+ * A build with QL_CFG_ASSERT checks every exponent. */
+#define QL_REAL_EXP_MAX 20000
+
+/* A real as an expression; m is normalised. */
+#define QL_REAL(m, e) ((ql_real_t){(m), (e)})
+
+#define QL_PI_M     0xc90fdaa2u /* pi 2^30 */
+#define QL_INV_PI_M 0xa2f9836eu /* 2^33 / pi */
+
+#define QL_REAL_ZERO    QL_REAL(0, 0)
+#define QL_REAL_ONE     QL_REAL(0x80000000u, -31)
+#define QL_REAL_HALF_PI QL_REAL(QL_PI_M, -31)
+#define QL_REAL_PI      QL_REAL(QL_PI_M, -30)
+#define QL_REAL_TWO_PI  QL_REAL(QL_PI_M, -29)
+#define QL_REAL_INV_PI  QL_REAL(QL_INV_PI_M, -33)
+#define QL_REAL_INV_2PI QL_REAL(QL_INV_PI_M, -34)
+
+/* A sum of exponents as an exponent; the range above says that it fits. A
+ * macro, because compilers add in 16 bits only where they see the cast. */
+#if QL_CFG_ASSERT
+QL_INLINE int16_t ql_real_exponent(int32_t e)
 {
-    return (uint64_t)(uint16_t)e << 32 | m;
+    QL_ASSERT(e >= -QL_REAL_EXP_MAX && e <= QL_REAL_EXP_MAX);
+    return (int16_t)e;
 }
-
-QL_INLINE ql_real_t ql_real_unpack(uint64_t words)
-{
-    ql_real_t r;
-
-    r.m = (uint32_t)words;
-    r.e = ql_i16((uint16_t)(words >> 32));
-    return r;
-}
-
-QL_FAST_INLINE uint64_t ql_real_from_u64_packed(uint64_t n)
-{
-    int16_t e = 32;
-
-    if (n == 0) {
-        return 0;
-    }
-    for (; n <= UINT64_MAX / 2; n <<= 1) {
-        e = (int16_t)(e - 1); /* >= 32 - 63 */
-    }
-    return ql_real_pack((uint32_t)(n >> 32), e);
-}
-
-QL_FAST_INLINE uint64_t ql_real_mul_packed(
-        uint32_t am, int16_t ae, uint32_t bm, int16_t be)
-{
-    const uint32_t high = ql_mulhi_u32(am, bm); /* 0 or >= 2^30 */
-    const int16_t e = (int16_t)(ae + be + 32);
-
-    return high < 0x80000000u ? ql_real_pack(high << 1, (int16_t)(e - 1))
-                              : ql_real_pack(high, e);
-}
+#else
+#define ql_real_exponent(e) ((int16_t)(e))
 #endif
+
+/* a 2^n, exactly. */
+QL_INLINE ql_real_t ql_real_scale(ql_real_t a, int32_t n)
+{
+    a.e = ql_real_exponent(a.e + n);
+    return a;
+}
+
+/* Is a below b? */
+QL_INLINE bool ql_real_less(ql_real_t a, ql_real_t b)
+{
+    return b.m != 0 && (a.m == 0 || a.e < b.e || (a.e == b.e && a.m < b.m));
+}
 
 /* The number n, cut to its 32 highest bits: relative error in (-2^-31, 0]. */
-QL_INLINE ql_real_t ql_real_from_u64(uint64_t n)
-{
-#if QL_CFG_SMALL
-    return ql_real_unpack(ql_real_from_u64_packed(n));
-#else
-    const unsigned shift = ql_clz64(n);
-    ql_real_t r = {0, 0};
-
-    if (shift < 64) {
-        r.m = (uint32_t)(n << shift >> 32);
-        r.e = (int16_t)(32 - (int16_t)shift);
-    }
-    return r;
-#endif
-}
+QL_INLINE ql_real_t ql_real_from_u64(uint64_t n);
 
 /* a b, relative error in (-2^-30, 0]. */
-QL_INLINE ql_real_t ql_real_mul(ql_real_t a, ql_real_t b)
-{
-#if QL_CFG_SMALL
-    return ql_real_unpack(ql_real_mul_packed(a.m, a.e, b.m, b.e));
-#else
-    const uint32_t high = ql_mulhi_u32(a.m, b.m); /* 0 or >= 2^30 */
-    ql_real_t r;
+QL_INLINE ql_real_t ql_real_mul(ql_real_t a, ql_real_t b);
 
-    r.m = high;
-    r.e = (int16_t)(a.e + b.e + 32);
-    if (high < 0x80000000u) {
-        r.m = high << 1;
-        r.e = (int16_t)(r.e - 1);
-    }
-    return r;
-#endif
-}
+/* 1 / a; 0 for 0. Error: relative, 2^-29. */
+QL_INLINE ql_real_t ql_real_recip(ql_real_t a);
 
 /* Reciprocal of a mantissa m in [2^31, 2^32).
  *
@@ -135,28 +123,46 @@ uint32_t ql_rsqrt_warp_m(uint32_t m);
 #endif
 
 #if QL_CFG_SMALL
-QL_FAST_INLINE uint64_t ql_real_recip_packed(uint32_t m, int16_t e)
+#include "math/ql_real_small.h"
+#else
+QL_INLINE ql_real_t ql_real_from_u64(uint64_t n)
 {
-    /* 2^63 / m */
-    return m != 0 ? ql_real_pack(ql_recip_m(m), (int16_t)(-63 - e)) : 0;
-}
-#endif
+    const unsigned shift = ql_clz64(n);
 
-/* 1 / a; 0 for 0. */
+    ql_real_t r = {0, 0};
+
+    if (shift < 64) {
+        r.m = (uint32_t)(n << shift >> 32);
+        r.e = ql_real_exponent(32 - (int32_t)shift);
+    }
+    return r;
+}
+
+QL_INLINE ql_real_t ql_real_mul(ql_real_t a, ql_real_t b)
+{
+    const uint32_t high = ql_mulhi_u32(a.m, b.m); /* 0 or >= 2^30 */
+    ql_real_t r;
+
+    r.m = high;
+    r.e = ql_real_exponent((int32_t)a.e + b.e + 32);
+    if (high < 0x80000000u) {
+        r.m = high << 1;
+        r.e = ql_real_exponent(r.e - 1);
+    }
+    return r;
+}
+
 QL_INLINE ql_real_t ql_real_recip(ql_real_t a)
 {
-#if QL_CFG_SMALL
-    return ql_real_unpack(ql_real_recip_packed(a.m, a.e));
-#else
     ql_real_t r = {0, 0};
 
     if (a.m != 0) {
         r.m = ql_recip_m(a.m); /* 2^63 / m */
-        r.e = (int16_t)(-63 - a.e);
+        r.e = ql_real_exponent(-63 - a.e);
     }
     return r;
-#endif
 }
+#endif
 
 /* The midpoint (2u + 1) / 2^33 of u's interval; exact for u below 2^31, cut to
  * u / 2^32 above. */
@@ -167,7 +173,7 @@ QL_INLINE ql_real_t ql_real_midpoint(ql_uq32_t u)
 
     if (zeros > 0) {
         r.m = (u << 1 | 1u) << (zeros - 1);
-        r.e = (int16_t)(-32 - (int16_t)zeros);
+        r.e = ql_real_exponent(-32 - (int32_t)zeros);
     }
     return r;
 }
@@ -175,7 +181,7 @@ QL_INLINE ql_real_t ql_real_midpoint(ql_uq32_t u)
 /* a as u0.32, rounded down; cut below 1. */
 QL_INLINE ql_uq32_t ql_real_to_uq32(ql_real_t a)
 {
-    const int16_t shift = (int16_t)(-32 - a.e);
+    const int32_t shift = -32 - (int32_t)a.e;
 
     if (shift < 0) {
         return a.m == 0 ? 0 : 0xffffffffu;
@@ -183,12 +189,19 @@ QL_INLINE ql_uq32_t ql_real_to_uq32(ql_real_t a)
     return shift < 32 ? a.m >> shift : 0;
 }
 
-/* a b as ql_real_mul() has it: a call, for code that is longer than it is hot.
- */
-ql_real_t ql_real_times(ql_real_t a, ql_real_t b);
+/* The same three by calls, for code that is longer than it is hot. */
+
+/* n 2^-bits, cut to the 32 highest bits of n. */
+ql_real_t ql_real_from_uq_call(uint64_t n, unsigned bits);
+
+/* a b as ql_real_mul() has it. */
+ql_real_t ql_real_mul_call(ql_real_t a, ql_real_t b);
+
+/* 1 / a as ql_real_recip() has it. */
+ql_real_t ql_real_recip_call(ql_real_t a);
 
 /* a / b; 0 for b = 0. Error: relative, 2^-28. */
-ql_real_t ql_real_over(ql_real_t a, ql_real_t b);
+ql_real_t ql_real_div(ql_real_t a, ql_real_t b);
 
 /* a + b. Error: relative, 2^-30, downwards. */
 ql_real_t ql_real_add(ql_real_t a, ql_real_t b);

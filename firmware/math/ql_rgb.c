@@ -15,7 +15,17 @@ static void normalise(ql_rgb_t *a)
     for (unsigned i = 0; i < 3; i++) {
         a->c[i] <<= zeros;
     }
-    a->e = (int16_t)(a->e - (int16_t)zeros);
+    a->e = ql_real_exponent(a->e - (int32_t)zeros);
+}
+
+/* Set an exponent; a colour below 2^QL_RGB_EXP_MIN becomes zero. */
+static void set_exponent(ql_rgb_t *a, int32_t e)
+{
+    if (e < QL_RGB_EXP_MIN) {
+        a->c[0] = a->c[1] = a->c[2] = 0;
+        e = 0;
+    }
+    a->e = ql_real_exponent(e);
 }
 
 /* a b 2^-32 half up: the product is at most 2^64 - 2^33 + 1, so this fits; of
@@ -31,7 +41,7 @@ void ql_rgb_scale(ql_rgb_t *a, ql_real_t by)
     for (unsigned i = 0; i < 3; i++) {
         a->c[i] = half_product(a->c[i], by.m);
     }
-    a->e = (int16_t)(a->e + by.e + 32);
+    set_exponent(a, (int32_t)a->e + by.e + 32);
 }
 
 void ql_rgb_mul(ql_rgb_t *a, const ql_rgb_t *b)
@@ -43,7 +53,7 @@ void ql_rgb_mul(ql_rgb_t *a, const ql_rgb_t *b)
     for (unsigned i = 0; i < 3; i++) {
         a->c[i] = half_product(a->c[i], other.c[i]);
     }
-    a->e = (int16_t)(a->e + other.e + 1);
+    set_exponent(a, (int32_t)a->e + other.e + 1);
 }
 
 /* c / 2^shift to nearest, for shift above 0; below 2^31, so that two add up:
@@ -70,7 +80,7 @@ void ql_rgb_add(ql_rgb_t *a, const ql_rgb_t *b)
         return;
     }
     /* The larger exponent and a bit for the carry: each is rounded once. */
-    e = (int16_t)((a->e > other.e ? a->e : other.e) + 1);
+    e = ql_real_exponent((a->e > other.e ? a->e : other.e) + 1);
     for (unsigned i = 0; i < 3; i++) {
         a->c[i] = shift_round(a->c[i], (unsigned)(e - a->e)) +
                   shift_round(other.c[i], (unsigned)(e - other.e));

@@ -14,6 +14,10 @@ typedef struct {
     int16_t e;
 } ql_rgb_t;
 
+/* Products whose e is below this become zero: far below the least that a
+ * picture can show, and the throughput of a long path never wraps e. */
+#define QL_RGB_EXP_MIN (-8192)
+
 /* The largest channel's c. */
 QL_INLINE uint32_t ql_rgb_most(const ql_rgb_t *a)
 {
@@ -34,19 +38,20 @@ QL_INLINE void ql_rgb_filter(ql_rgb_t *a, const uint32_t by[3])
 /* Multiply by a real number.
  *
  *   a   -  any; all zero if by is zero
- *   by  -  the sum of both exponents fits 15 bits
+ *   by  -  any
  *
  * Error: half an ulp of 2^-30 of the largest channel, in each; exact for powers
- *        of two if every c is below 2^31.
+ *        of two if every c is below 2^31. Zero below 2^QL_RGB_EXP_MIN.
  */
 void ql_rgb_scale(ql_rgb_t *a, ql_real_t by);
 
 /* Multiply by b. Error: half an ulp of 2^-30 of the product of both largest
- * channels, in each; exact by a gray power of two if every c is below 2^31. */
+ * channels, in each; exact by a gray power of two if every c is below 2^31.
+ * Zero below 2^QL_RGB_EXP_MIN. */
 void ql_rgb_mul(ql_rgb_t *a, const ql_rgb_t *b);
 
 /* Add b to a. Error: an ulp of 2^-30 of the larger one's largest channel, in
- * each; exact if either is zero. Exponents fit 15 bits. */
+ * each; exact if either is zero. */
 void ql_rgb_add(ql_rgb_t *a, const ql_rgb_t *b);
 
 #endif

@@ -21,8 +21,8 @@ void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
 
 #if QL_CFG_TABLE_LERP
     /* rest 2 pi / 2^32 rad, scaled by 2^36: |rest| <= 2^24, |delta| < pi 2^29.
-     * 0xc90fdaa2 is 2 pi 2^29. */
-    const int32_t delta = ql_mulhi_su32(rest * 128, 0xc90fdaa2u);
+     * 2 pi 2^29 is QL_PI_M. */
+    const int32_t delta = ql_mulhi_su32(rest * 128, QL_PI_M);
     const uint32_t adelta = ql_abs32(delta);
     int32_t ds, dc;
 
@@ -88,49 +88,45 @@ static ql_real_t odd_series(
         sum = series[count] - ql_mulhi_u32(z, sum);
     }
     r.m = ~ql_mulhi_u32(z, sum); /* 0.63 or more of 2^32 */
-    return ql_real_times(x, r);
+    return ql_real_mul_call(x, r);
 }
 
 ql_real_t ql_real_sin(ql_real_t x)
 {
-    const ql_real_t pi = {0xc90fdaa2u, -30};
     ql_real_t v;
 
     if (x.m == 0) {
         return x;
     }
-    if (x.e > -31 || (x.e == -31 && x.m > pi.m)) { /* above pi / 2 */
-        x = ql_real_sub(pi, x);
+    if (x.e > -31 || (x.e == -31 && x.m > QL_PI_M)) { /* above pi / 2 */
+        x = ql_real_sub(QL_REAL_PI, x);
     }
-    v = ql_real_times(x, x);
-    v.e = (int16_t)(v.e - 2);
+    v = ql_real_scale(ql_real_mul_call(x, x), -2);
     return odd_series(x, ql_real_to_uq32(v), sine_series,
             sizeof sine_series / sizeof sine_series[0]);
 }
 
 ql_real_t ql_real_atan(ql_real_t a)
 {
-    const ql_real_t half_pi = {0xc90fdaa2u, -31};
     const bool steep = a.m != 0 && a.e > -32; /* a >= 1 */
     ql_real_t angle;
 
     if (steep) {
         a = ql_real_recip(a);
     }
-    angle = odd_series(a, ql_real_to_uq32(ql_real_times(a, a)), atan_series,
+    angle = odd_series(a, ql_real_to_uq32(ql_real_mul_call(a, a)), atan_series,
             sizeof atan_series / sizeof atan_series[0]);
-    return steep ? ql_real_sub(half_pi, angle) : angle;
+    return steep ? ql_real_sub(QL_REAL_HALF_PI, angle) : angle;
 }
 
 ql_turn32_t ql_atan2(int32_t y, int32_t x)
 {
-    const ql_real_t inv_2pi = {0xa2f9836eu, -34};
     const uint32_t ay = ql_abs32(y), ax = ql_abs32(x);
     const bool steep = ay > ax;
-    const ql_real_t ratio = ql_real_over(ql_real_from_u64(steep ? ax : ay),
+    const ql_real_t ratio = ql_real_div(ql_real_from_u64(steep ? ax : ay),
             ql_real_from_u64(steep ? ay : ax));
-    ql_turn32_t turn =
-            ql_real_to_uq32(ql_real_times(ql_real_atan(ratio), inv_2pi));
+    ql_turn32_t turn = ql_real_to_uq32(
+            ql_real_mul_call(ql_real_atan(ratio), QL_REAL_INV_2PI));
 
     turn = steep ? 0x40000000u - turn : turn;
     turn = x < 0 ? 0x80000000u - turn : turn;

@@ -1,16 +1,21 @@
-/* ql_vec.h - exact products of integer 3-vectors */
+/* ql_vec.h - exact sums and products of integer 3-vectors */
 /* SPDX-License-Identifier: MIT */
+
+/* Names end in how arguments are taken, where there is a choice: _ptr by
+ * pointers, so that a call need not copy them; _call by a call, for code that
+ * is longer than it is hot. */
 
 #ifndef QL_VEC_H
 #define QL_VEC_H
 
-#include "math/ql_fx.h"
+#include "math/ql_real.h"
 
 /* A vector or point; the unit is its user's. */
 typedef struct {
     int32_t x, y, z;
 } ql_vec3_t;
 
+/* a - b; the caller bounds it below 2^31. */
 QL_INLINE ql_vec3_t ql_vec_sub(ql_vec3_t a, ql_vec3_t b)
 {
     const ql_vec3_t r = {a.x - b.x, a.y - b.y, a.z - b.z};
@@ -18,9 +23,16 @@ QL_INLINE ql_vec3_t ql_vec_sub(ql_vec3_t a, ql_vec3_t b)
     return r;
 }
 
-/* a x b; components up to 32768 and 32767: |result| <= 2 32767 32768 < 2^31.
- * The function takes its vectors where they lie, as calls want them. */
-QL_FAST_INLINE void ql_vec_cross_to(
+/* -v; no component is -2^31. */
+QL_INLINE ql_vec3_t ql_vec_neg(ql_vec3_t v)
+{
+    const ql_vec3_t r = {-v.x, -v.y, -v.z};
+
+    return r;
+}
+
+/* a x b; components up to 32768 and 32767: |result| <= 2 32767 32768 < 2^31. */
+QL_FAST_INLINE void ql_vec_cross_ptr(
         ql_vec3_t *r, const ql_vec3_t *a, const ql_vec3_t *b)
 {
     r->x = a->y * b->z - a->z * b->y;
@@ -32,7 +44,7 @@ QL_INLINE ql_vec3_t ql_vec_cross(ql_vec3_t a, ql_vec3_t b)
 {
     ql_vec3_t r;
 
-    ql_vec_cross_to(&r, &a, &b);
+    ql_vec_cross_ptr(&r, &a, &b);
     return r;
 }
 
@@ -42,9 +54,13 @@ QL_INLINE int64_t ql_vec_dot(ql_vec3_t a, ql_vec3_t b)
     return (int64_t)a.x * b.x + (int64_t)a.y * b.y + (int64_t)a.z * b.z;
 }
 
+/* a . b, likewise bounded. */
+int64_t ql_vec_dot_call(ql_vec3_t a, ql_vec3_t b);
+
 /* a . n for positions' differences a and an exact normal n (|n| < 2^31). In
  * draft a has 16 bits, so CPUs without wide multiplication take halves. */
-QL_FAST_INLINE int64_t ql_vec_dot_n_of(const ql_vec3_t *a, const ql_vec3_t *n)
+QL_FAST_INLINE int64_t ql_vec_dot_normal_ptr(
+        const ql_vec3_t *a, const ql_vec3_t *n)
 {
 #if QL_POS_BITS == 0
     return ql_dot_s16_s32(a->x, a->y, a->z, n->x, n->y, n->z);
@@ -53,20 +69,24 @@ QL_FAST_INLINE int64_t ql_vec_dot_n_of(const ql_vec3_t *a, const ql_vec3_t *n)
 #endif
 }
 
-QL_INLINE int64_t ql_vec_dot_n(ql_vec3_t a, ql_vec3_t n)
+QL_INLINE int64_t ql_vec_dot_normal(ql_vec3_t a, ql_vec3_t n)
 {
-    return ql_vec_dot_n_of(&a, &n);
+    return ql_vec_dot_normal_ptr(&a, &n);
 }
 
-/* Unit vector of an exact one.
- *
- *   n        -      |n| < 2^31
- *   inverse  -      its 1/|n| as packed in ql_blob_tri_t
- *   return   s2.29  n / |n|; for an inverse that is not n's, any vector
- *
- * Error: 2^-26 relative, from the packed mantissa.
- * Cost:  three multiplications.
- */
-ql_vec3_t ql_vec_unit(ql_vec3_t n, uint32_t inverse);
+/* |v|^2, cut to 32 bits; components below 2^30. */
+ql_real_t ql_vec_square(ql_vec3_t v);
+
+/* |v|^2 of positions' differences: components below 2^15 (draft), so 3 2^30
+ * fits 32 bits, or 2^23 (fine). */
+QL_INLINE ql_real_t ql_vec_square_pos(ql_vec3_t v)
+{
+#if QL_POS_BITS == 0
+    return ql_real_from_u64((uint32_t)(v.x * v.x) + (uint32_t)(v.y * v.y) +
+                            (uint32_t)(v.z * v.z));
+#else
+    return ql_real_from_u64((uint64_t)ql_vec_dot(v, v));
+#endif
+}
 
 #endif

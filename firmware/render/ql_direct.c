@@ -4,9 +4,9 @@
 #include "render/ql_direct.h"
 
 #include "light/ql_aim.h"
-#include "warp/ql_warp.h"
 #include "light/ql_light.h"
 #include "light/ql_sky.h"
+#include "math/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
 
 /* Points of triangles, seen from flat diffuse surfaces, are all there is. */
@@ -30,7 +30,7 @@ static void add_light(const ql_path_t *path, const ql_rgb_t *carried,
 {
     ql_uq31_t value[3];
 
-    scale.e = (int16_t)(scale.e + carried->e);
+    scale.e = ql_real_exponent((int32_t)scale.e + carried->e);
     for (unsigned i = 0; i < 3; i++) {
         value[i] = product_round(carried->c[i], emission[i]);
     }
@@ -54,27 +54,25 @@ QL_FAST_INLINE void add_emission(const ql_path_t *path, const ql_rgb_t *carried,
 /* h / (1 + h) */
 static ql_real_t share_of(ql_real_t h)
 {
-    static const ql_real_t one = {0x80000000u, -31};
     ql_real_t below;
 
     if (h.m == 0 || h.e < -93) {
         return h; /* h < 2^-61 */
     }
     if (h.e >= 0) {
-        return one; /* h >= 2^31 */
+        return QL_REAL_ONE; /* h >= 2^31 */
     }
     if (h.e >= -31) {
         /* 1 <= h < 2^31, in units of 2^e */
-        below = ql_real_from_u64((uint64_t)h.m + ((uint64_t)1 << -h.e));
-        below.e = (int16_t)(below.e + h.e);
+        below = ql_real_scale(
+                ql_real_from_u64((uint64_t)h.m + ((uint64_t)1 << -h.e)), h.e);
     } else {
         /* h < 1, in units of 2^-62 */
         const int up = h.e + 62;
         const uint64_t m =
                 up >= 0 ? (uint64_t)h.m << up : (uint64_t)(h.m >> -up);
 
-        below = ql_real_from_u64(m + ((uint64_t)1 << 62));
-        below.e = (int16_t)(below.e - 62);
+        below = ql_real_scale(ql_real_from_u64(m + ((uint64_t)1 << 62)), -62);
     }
     return ql_real_mul(h, ql_real_recip(below));
 }
@@ -83,42 +81,21 @@ static ql_real_t share_of(ql_real_t h)
 /* ---- drawn towards emitters ---- */
 
 #if QL_CFG_LIGHTS
-/* |w|^2; components below 2^15 (draft): 3 2^30 fits 32 bits; 2^23 (fine) */
-QL_INLINE ql_real_t length_squared(ql_vec3_t w)
-{
-#if QL_POS_BITS == 0
-    return ql_real_from_u64((uint32_t)(w.x * w.x) + (uint32_t)(w.y * w.y) +
-                            (uint32_t)(w.z * w.z));
-#else
-    return ql_real_from_u64((uint64_t)ql_vec_dot(w, w));
-#endif
-}
-
-/* 1/|n| as packed in ql_blob_tri_t */
-QL_INLINE ql_real_t unpack_inverse(uint32_t inv_n)
-{
-    ql_real_t r;
-
-    r.m = inv_n & ~31u;
-    r.e = (int16_t)(-31 - (int16_t)(inv_n & 31u));
-    return r;
-}
-
 /* weight (n.w)(N.w) / |w|^4 with n unit. Positions carry f fraction bits: two
  * more powers of w below than above, so the quotient is 2^2f too small. */
 static ql_real_t geometry(const ql_surface_t *surface, ql_real_t weight,
         ql_vec3_t w, uint64_t cos_n, uint64_t cos_light)
 {
-    const ql_real_t inverse = ql_real_recip(length_squared(w));
+    const ql_real_t inverse = ql_real_recip(ql_vec_square_pos(w));
     ql_real_t g;
 
-    g = ql_real_mul(ql_real_from_u64(cos_n), unpack_inverse(surface->inv_n));
+    g = ql_real_mul(
+            ql_real_from_u64(cos_n), ql_vec_unit_unpack_inv_n(surface->inv_n));
     g = ql_real_mul(g, inverse);
     g = ql_real_mul(g, ql_real_from_u64(cos_light));
     g = ql_real_mul(g, inverse);
     g = ql_real_mul(g, weight);
-    g.e = (int16_t)(g.e + 2 * QL_POS_BITS);
-    return g;
+    return ql_real_scale(g, 2 * QL_POS_BITS);
 }
 
 /* A flat diffuse surface and a point of a triangle: no square root. */
@@ -130,7 +107,7 @@ static void light_point(const ql_path_t *path, const ql_surface_t *surface,
     ql_ray_t ray;
     const uint64_t cos_light = ql_aim_at_point(
             path->scene, light, surface->p, u, &point, &ray.direction);
-    const int64_t cos_n = ql_vec_dot_n_of(&ray.direction, &surface->n);
+    const int64_t cos_n = ql_vec_dot_normal_ptr(&ray.direction, &surface->n);
     ql_real_t g;
 
     if (cos_n <= 0 || cos_light == 0) {
@@ -164,7 +141,7 @@ static bool is_free(const ql_path_t *path, const ql_surface_t *surface,
         ql_hit_t hit;
 
         QL_DIAG_COUNT(path->diag, closest_rays);
-        ray.direction = ql_dir_round(aim->w);
+        ray.direction = ql_vec_to_dir(aim->w);
         return !ql_bvh_closest_hit(path->scene, &ray, &hit);
     }
 #endif
@@ -178,8 +155,6 @@ static void light_direction(const ql_path_t *path, const ql_bsdf_t *bsdf,
         const ql_rgb_t *carried, uint16_t light, ql_real_t weight,
         ql_uniform2_t u)
 {
-    static const ql_real_t two_pi = {0xc90fdaa2u, -29};
-    static const ql_real_t one = {0x80000000u, -31};
     const unsigned direct = path->settings->direct;
     ql_aim_t aim;
     ql_rgb_t r;
@@ -189,10 +164,10 @@ static void light_direction(const ql_path_t *path, const ql_bsdf_t *bsdf,
         return;
     }
     ql_bsdf_reflect(bsdf, aim.w, aim.cosine,
-            ql_real_mul(aim.inverse, ql_real_mul(two_pi, weight)),
+            ql_real_mul(aim.inverse, ql_real_mul(QL_REAL_TWO_PI, weight)),
             direct == QL_DIRECT_MIS, &r);
     ql_rgb_mul(&r, carried);
-    add_light(path, &r, aim.emission, one);
+    add_light(path, &r, aim.emission, QL_REAL_ONE);
 }
 
 /* Is a light drawn by its area alone, a triangle's? */
@@ -266,9 +241,7 @@ void ql_direct_light(const ql_path_t *path, uint32_t dim, const ql_bsdf_t *bsdf,
 static ql_real_t share_seen(const ql_path_t *path, const ql_sight_t *sight,
         const ql_ray_t *ray, const ql_blob_tri_t *tri, ql_uq30_t t)
 {
-    static const ql_real_t one = {0x80000000u, -31};
 #if QL_CFG_STRATEGIES
-    static const ql_real_t two_pi = {0xc90fdaa2u, -29};
     const ql_settings_t *s = path->settings;
     const uint16_t index = tri == NULL
                                    ? QL_LIGHT_SKY
@@ -278,21 +251,21 @@ static ql_real_t share_seen(const ql_path_t *path, const ql_sight_t *sight,
 
     if (sight->kind != QL_SIGHT_SHARE ||
             !ql_light_find(path->scene, index, &light)) {
-        return one;
+        return QL_REAL_ONE;
     }
     h = ql_real_mul(
             sight->pdf, ql_aim_inverse(path->scene, sight->from, ray, tri, t));
-    h = ql_real_mul(h, two_pi);
+    h = ql_real_mul(h, QL_REAL_TWO_PI);
     h = ql_real_mul(h,
             ql_light_weight(path->scene, s->lights, s->light_samples, light));
-    return h.m == 0 ? one : share_of(h);
+    return h.m == 0 ? QL_REAL_ONE : share_of(h);
 #else
     (void)path;
     (void)sight;
     (void)ray;
     (void)tri;
     (void)t;
-    return one;
+    return QL_REAL_ONE;
 #endif
 }
 

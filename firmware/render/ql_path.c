@@ -185,8 +185,7 @@ static QL_NOINLINE bool survives(
         return false;
     }
     inverse = ql_real_recip(ql_real_from_u64(chance));
-    inverse.e = (int16_t)(inverse.e + 31);
-    ql_rgb_scale(&way->carried, inverse);
+    ql_rgb_scale(&way->carried, ql_real_scale(inverse, 31));
     return true;
 }
 #endif

@@ -212,8 +212,7 @@ ql_real_t ql_table_density(const ql_table_t *table, uint64_t mass)
     for (unsigned d = 0; d < table->dims; d++) {
         pdf = ql_real_mul(pdf, ql_real_from_u64(table->count[d]));
     }
-    pdf.e = (int16_t)(pdf.e - 16 * (int16_t)table->dims);
-    return pdf;
+    return ql_real_scale(pdf, -16 * (int32_t)table->dims);
 }
 
 ql_real_t ql_table_pdf(const ql_table_t *table, const ql_uq32_t *x)

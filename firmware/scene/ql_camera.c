@@ -3,7 +3,7 @@
 
 #include "scene/ql_camera.h"
 
-#include "math/ql_real.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_square.h"
 #include "warp/ql_warp.h"
 
@@ -308,7 +308,7 @@ bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
     d.x = direction[0];
     d.y = direction[1];
     d.z = direction[2];
-    ray->direction = ql_dir_round(d);
+    ray->direction = ql_vec_to_dir(d);
     if (outside && !enter_box(at, direction)) {
         return false;
     }

@@ -93,8 +93,9 @@ static bool discriminant(const ql_blob_sphere_t *sphere, ql_vec3_t s,
         return false;
     }
     /* one less for what was shifted out; 0 is not certain */
-    *difference = ql_real_from_u64(((uint64_t)whole.m << 32) - cross - 1);
-    difference->e = (int16_t)(difference->e + whole.e - 32);
+    *difference = ql_real_scale(
+            ql_real_from_u64(((uint64_t)whole.m << 32) - cross - 1),
+            whole.e - 32);
     return difference->m != 0;
 }
 

@@ -3,7 +3,7 @@
 
 #include "trace/ql_surface_at.h"
 
-#include "math/ql_real.h"
+#include "math/ql_vec_unit.h"
 #include "trace/ql_sphere.h"
 #include "trace/ql_tri.h"
 
@@ -30,7 +30,7 @@ unsigned ql_surface_step(ql_vec3_t *p, const ql_vec3_t *on, const ql_vec3_t *n)
     from_plane.x = p->x - on->x * (1 << QL_POS_BITS);
     from_plane.y = p->y - on->y * (1 << QL_POS_BITS);
     from_plane.z = p->z - on->z * (1 << QL_POS_BITS);
-    side = ql_vec_dot_n_of(&from_plane, n);
+    side = ql_vec_dot_normal_ptr(&from_plane, n);
     if (side > 0) {
         return 0; /* half of all points */
     }
@@ -48,18 +48,6 @@ unsigned ql_surface_step(ql_vec3_t *p, const ql_vec3_t *on, const ql_vec3_t *n)
     }
     return steps;
 }
-
-#if QL_CFG_SPHERES || QL_CFG_SMOOTH
-/* 1/|n| as ql_blob_tri_t packs it, from n.n; within 2^-26, and never above by
- * more than 2^-28. 0 for 0. */
-static uint32_t inverse_of(uint64_t square)
-{
-    const ql_real_t r = ql_real_recip(ql_real_sqrt(ql_real_from_u64(square)));
-
-    /* m 2^e = m 2^-32 2^(1 - l): l is 0..31 for |n| in [1, 2^31) */
-    return r.m == 0 ? 0 : (r.m & ~31u) | ((uint32_t)(-31 - r.e) & 31u);
-}
-#endif
 
 #if QL_CFG_SPHERES
 /* Step p along the dominant axis of its offset until it is strictly outside, or
@@ -93,10 +81,9 @@ static void surface_at_sphere(
         const ql_blob_sphere_t *sphere, bool outside, ql_surface_t *surface)
 {
     const ql_vec3_t s = sphere_step(sphere, &surface->p, outside);
-    const ql_vec3_t zero = {0, 0, 0};
 
-    surface->n = outside ? s : ql_vec_sub(zero, s);
-    surface->inv_n = inverse_of((uint64_t)ql_vec_dot(s, s));
+    surface->n = outside ? s : ql_vec_neg(s);
+    surface->inv_n = ql_vec_unit_pack_inv_n((uint64_t)ql_vec_dot(s, s));
 }
 #endif
 
@@ -114,25 +101,6 @@ static bool corner_normal(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     n->y = ql_i16(QL_LE16((uint16_t)at->xyz[1]));
     n->z = ql_i16(QL_LE16((uint16_t)at->xyz[2]));
     return (n->x | n->y | n->z) != 0;
-}
-
-/* The unit vector of a sum below 2^48 a component; zero for zero. */
-static ql_vec3_t unit_of(int64_t x, int64_t y, int64_t z)
-{
-    const unsigned zeros = ql_clz64(ql_abs64(x) | ql_abs64(y) | ql_abs64(z));
-    ql_vec3_t v = {0, 0, 0};
-
-    if (zeros < 64) {
-        /* to 30 bits; shifted left only if short, as a multiplication */
-        const unsigned right = zeros < 34 ? 34 - zeros : 0;
-        const int64_t left = (int64_t)1 << (zeros > 34 ? zeros - 34 : 0);
-
-        v.x = (int32_t)ql_asr64(x * left, right);
-        v.y = (int32_t)ql_asr64(y * left, right);
-        v.z = (int32_t)ql_asr64(z * left, right);
-        v = ql_vec_unit(v, inverse_of((uint64_t)ql_vec_dot(v, v)));
-    }
-    return v;
 }
 
 /* Interpolate the corner normals at a hit, on the side it was seen from. */
@@ -154,7 +122,7 @@ static void smooth_at(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     /* U, V and det - U - V of ql_tri_hit(): all of them of one sign */
     w1 = (int64_t)ql_abs64(u);
     w2 = (int64_t)ql_abs64(minus_v);
-    det = (int64_t)(ql_abs64(ql_vec_dot_n(ray->direction, surface->n))
+    det = (int64_t)(ql_abs64(ql_vec_dot_normal(ray->direction, surface->n))
                     << QL_POS_BITS);
     w0 = det - w1 - w2;
     /* the weights to 31 bits: their sums with 16 bits are below 2^49 */
@@ -169,7 +137,7 @@ static void smooth_at(const ql_scene_t *scene, const ql_blob_tri_t *tri,
         w1 = -w1;
         w2 = -w2;
     }
-    surface->shade = unit_of(w0 * n0.x + w1 * n1.x + w2 * n2.x,
+    surface->shade = ql_vec_unit_q29_of_wide(w0 * n0.x + w1 * n1.x + w2 * n2.x,
             w0 * n0.y + w1 * n1.y + w2 * n2.y,
             w0 * n0.z + w1 * n1.z + w2 * n2.z);
     surface->smooth = ql_vec_dot(surface->shade, surface->n) > 0;
@@ -201,7 +169,7 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
     }
 #endif
     t = ql_scene_edges(scene, tri);
-    ql_vec_cross_to(&surface->n, hit->front ? &t.e1 : &t.e2,
+    ql_vec_cross_ptr(&surface->n, hit->front ? &t.e1 : &t.e2,
             hit->front ? &t.e2 : &t.e1);
     surface->inv_n = QL_LE32(tri->inv_n);
     point_at(ray, hit->t, &surface->p);
@@ -218,8 +186,7 @@ void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         const ql_surface_t *surface, ql_vec3_t *p)
 {
     const ql_blob_tri_t *tri = scene->triangles + tri_idx;
-    const ql_vec3_t zero = {0, 0, 0};
-    const ql_vec3_t back = ql_vec_sub(zero, surface->n);
+    const ql_vec3_t back = ql_vec_neg(surface->n);
     ql_vec3_t corner;
 
     *p = surface->p;

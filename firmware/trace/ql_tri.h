@@ -66,14 +66,14 @@ QL_INLINE bool ql_tri_edges(
 #if QL_POS_BITS == 0
     ql_vec3_t q;
 
-    ql_vec_cross_to(&q, &f->s, &d);
+    ql_vec_cross_ptr(&q, &f->s, &d);
 #if !QL_PORT_WIDE_MUL && !QL_CFG_SMALL
     if (same_sign_coarse(f->t.e1, f->t.e2, q)) {
         return false;
     }
 #endif
-    *u = ql_vec_dot_n_of(&f->t.e2, &q);
-    *minus_v = ql_vec_dot_n_of(&f->t.e1, &q);
+    *u = ql_vec_dot_normal_ptr(&f->t.e2, &q);
+    *minus_v = ql_vec_dot_normal_ptr(&f->t.e1, &q);
 #else
     const int64_t qx = (int64_t)f->s.y * d.z - (int64_t)f->s.z * d.y;
     const int64_t qy = (int64_t)f->s.z * d.x - (int64_t)f->s.x * d.z;
@@ -111,8 +111,8 @@ QL_INLINE int ql_tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     if (!ql_tri_edges(&f, ray->direction, &u, &minus_v)) {
         return 0; /* u and v have opposite signs */
     }
-    ql_vec_cross_to(&n, &f.t.e1, &f.t.e2);
-    det = -ql_vec_dot_n_of(&ray->direction, &n);
+    ql_vec_cross_ptr(&n, &f.t.e1, &f.t.e2);
+    det = -ql_vec_dot_normal_ptr(&ray->direction, &n);
     if (det < 0) {
         u = -u;
         minus_v = -minus_v;
@@ -121,7 +121,7 @@ QL_INLINE int ql_tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     if (u < 0 || minus_v > 0 || u > limit || -minus_v > limit - u) {
         return 0;
     }
-    t = ql_vec_dot_n_of(&f.s, &n);
+    t = ql_vec_dot_normal_ptr(&f.s, &n);
     if (det < 0) {
         t = -t;
     }

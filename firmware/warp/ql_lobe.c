@@ -1,4 +1,4 @@
-/* ql_lobe.c - hemisphere, cos^m lobe, cone, and frames to turn them */
+/* ql_lobe.c - hemispheres, cos^m lobe, cone */
 /* SPDX-License-Identifier: MIT */
 
 #include "warp/ql_lobe.h"
@@ -10,17 +10,9 @@
 #define LN2_UQ32 0xb17217f8u /* ln 2 */
 #define LOG2E    0xb8aa3b29u /* 1 / ln 2, u1.31 */
 #define SIXTH    0x2aaaaaabu /* 1 / 6 */
-#define INV_2PI  0xa2f9836eu /* 1 / (2 pi) 2^34 */
 #define INV_PI2  0xcf817b11u /* 1 / pi^2 2^35 */
 
 #define POWER_MAX 4096u /* no density below 2^-this */
-
-static ql_real_t real_of(uint32_t m, int16_t e)
-{
-    const ql_real_t r = {m, e};
-
-    return r;
-}
 
 /* Square root of a in [0, 1), u0.32, cut below 1. Relative error that of
  * ql_rsqrt_warp_m() and 3 ulp. */
@@ -57,7 +49,7 @@ static ql_vec3_t off_axis(ql_real_t s, ql_turn32_t azimuth)
 {
     const ql_uq32_t fixed = ql_real_to_uq32(s);
     /* (2 - s) 2^31 in [2^31, 2^32), rounded down so that the sine is <= 1 */
-    const ql_real_t rest = real_of(~(fixed >> 1), -31);
+    const ql_real_t rest = QL_REAL(~(fixed >> 1), -31);
     const ql_q29_t z = ONE_Q29 - (int32_t)(((fixed >> 2) + 1) >> 1);
 
     return polar(root(ql_real_mul(s, rest)), azimuth, z);
@@ -85,16 +77,16 @@ ql_real_t ql_warp_naive_hemisphere_pdf(ql_vec3_t w)
     /* sin^2 2^58 = square.m 2^square.e, and m 2^-32 2^t = sin^2, t even */
     const ql_real_t square = ql_real_from_u64(
             (uint64_t)((int64_t)w.x * w.x) + (uint64_t)((int64_t)w.y * w.y));
-    const int16_t t = (int16_t)(square.e + 32 - 58 + (square.e & 1));
+    const int32_t t = square.e + 32 - 58 + (square.e & 1);
     uint32_t r;
 
     if (square.m == 0 || w.z < 0) {
-        return real_of(0, 0);
+        return QL_REAL_ZERO;
     }
     r = ql_rsqrt_m(square.m >> (square.e & 1)); /* 2^31 2^(t/2) / sin */
-    return ql_real_mul(
-            real_of(r < 0x80000000u ? 0x80000000u : r, (int16_t)(-31 - t / 2)),
-            real_of(INV_PI2, -35));
+    return ql_real_mul(QL_REAL(r < 0x80000000u ? 0x80000000u : r,
+                               ql_real_exponent(-31 - t / 2)),
+            QL_REAL(INV_PI2, -35));
 }
 
 ql_vec3_t ql_warp_cosine_lobe(ql_uq32_t u1, ql_uq32_t u2)
@@ -111,7 +103,7 @@ ql_uq32_t ql_warp_cosine_lobe_pdf(ql_q29_t z)
     /* z 2^31 times 2^34 / (2 pi): the high word is 2^32 z / pi */
     return z <= 0 ? 0
                   : ql_mulhi_u32(z >= ONE_Q29 ? 0x80000000u : (uint32_t)z << 2,
-                            INV_2PI);
+                            QL_INV_PI_M);
 }
 
 /* -log2(u) for u = 1 - w in (0, 1). Near 1 the series in w keeps all bits of a
@@ -121,7 +113,6 @@ static ql_real_t minus_log2(ql_real_t u, ql_real_t w)
     uint32_t r, da, d2, d3;
     int32_t d, ln;
     uint64_t sum;
-    ql_real_t log;
 
     if (w.e < -39) { /* w < 2^-8 */
         const ql_uq32_t x = ql_real_to_uq32(w);
@@ -132,7 +123,7 @@ static ql_real_t minus_log2(ql_real_t u, ql_real_t w)
                                (ql_mulhi_u32(x2, x) >> 3);
 
         return ql_real_mul(
-                ql_real_mul(w, real_of(sum31, -31)), real_of(LOG2E, -31));
+                ql_real_mul(w, QL_REAL(sum31, -31)), QL_REAL(LOG2E, -31));
     }
     /* r = 1/m to 2^-8: d = m r - 1, times 2^38, |d| < 2^30.2 */
     r = (uint32_t)ql_lut_recip[(u.m >> 24) - QL_RECIP_CELLS] << 16;
@@ -147,9 +138,7 @@ static ql_real_t minus_log2(ql_real_t u, ql_real_t w)
     sum = ((uint64_t)(uint16_t)(-32 - u.e) << 32) +
           ql_lut_log2[(u.m >> 24) - QL_RECIP_CELLS];
     sum -= (uint64_t)(int64_t)ql_asr32(ql_mulhi_su32(ln, LOG2E) + 16, 5);
-    log = ql_real_from_u64(sum);
-    log.e = (int16_t)(log.e - 32);
-    return log;
+    return ql_real_scale(ql_real_from_u64(sum), -32);
 }
 
 /* (1 - e^-x) / x for x < 2^-6, u0.32: 1 - x/2 + x^2/6 - x^3/24; the next term
@@ -188,18 +177,15 @@ static ql_real_t decay(ql_real_t y)
 {
     ql_uq32_t f, s;
     uint32_t whole;
-    ql_real_t r;
 
     if (y.e < -37) { /* y < 2^-6: keeps the bits of a tiny y */
-        const ql_real_t x = ql_real_mul(y, real_of(LN2_UQ32, -32));
+        const ql_real_t x = ql_real_mul(y, QL_REAL(LN2_UQ32, -32));
 
-        return ql_real_mul(x, real_of(decay_over_x(ql_real_to_uq32(x)), -32));
+        return ql_real_mul(x, QL_REAL(decay_over_x(ql_real_to_uq32(x)), -32));
     }
     whole = split(y, &f);
     s = whole < 32 ? ~(~decay_of_fraction(f) >> whole) : 0xffffffffu;
-    r = ql_real_from_u64(s);
-    r.e = (int16_t)(r.e - 32);
-    return r;
+    return ql_real_scale(ql_real_from_u64(s), -32);
 }
 
 /* 2^-y; 0 below 2^-POWER_MAX. */
@@ -209,28 +195,25 @@ static ql_real_t half_to_the(ql_real_t y)
     uint32_t whole = 0;
 
     if (y.m == 0) {
-        return real_of(0x80000000u, -31);
+        return QL_REAL_ONE;
     }
     if (y.e >= -37) {
         whole = split(y, &f);
         if (whole >= POWER_MAX) {
-            return real_of(0, 0);
+            return QL_REAL_ZERO;
         }
         m = ~decay_of_fraction(f);
     } else {
         m = ~ql_real_to_uq32(decay(y));
     }
-    return real_of(
-            m < 0x80000000u ? 0x80000000u : m, (int16_t)(-32 - (int16_t)whole));
+    return QL_REAL(m < 0x80000000u ? 0x80000000u : m,
+            ql_real_exponent(-32 - (int32_t)whole));
 }
 
 /* m + 1 */
 static ql_real_t one_more(ql_uq16_t power)
 {
-    ql_real_t r = ql_real_from_u64((uint64_t)power + 65536u);
-
-    r.e = (int16_t)(r.e - 16);
-    return r;
+    return ql_real_scale(ql_real_from_u64((uint64_t)power + 65536u), -16);
 }
 
 ql_real_t ql_lobe_inverse(ql_uq16_t power)
@@ -252,21 +235,18 @@ ql_vec3_t ql_warp_power_lobe(
 
 ql_real_t ql_warp_power_lobe_pdf(ql_uq16_t power, ql_uq31_t s)
 {
-    const ql_real_t scale = ql_real_mul(one_more(power), real_of(INV_2PI, -34));
+    const ql_real_t scale = ql_real_mul(one_more(power), QL_REAL_INV_2PI);
     ql_real_t m, u, w;
 
     if (s >= QL_UQ31_ONE) {
-        return real_of(0, 0);
+        return QL_REAL_ZERO;
     }
     if (s == 0) {
         return scale;
     }
-    m = ql_real_from_u64(power);
-    m.e = (int16_t)(m.e - 16);
-    u = ql_real_from_u64(QL_UQ31_ONE - s);
-    u.e = (int16_t)(u.e - 31);
-    w = ql_real_from_u64(s);
-    w.e = (int16_t)(w.e - 31);
+    m = ql_real_scale(ql_real_from_u64(power), -16);
+    u = ql_real_scale(ql_real_from_u64(QL_UQ31_ONE - s), -31);
+    w = ql_real_scale(ql_real_from_u64(s), -31);
     return ql_real_mul(scale, half_to_the(ql_real_mul(m, minus_log2(u, w))));
 }
 
@@ -275,13 +255,12 @@ ql_real_t ql_cone_of_sphere(ql_real_t ratio2)
     ql_real_t root, sum;
 
     if (ratio2.m == 0 || ratio2.e > -32) {
-        return real_of(ratio2.m == 0 ? 0 : 0x80000000u, -31);
+        return ratio2.m == 0 ? QL_REAL_ZERO : QL_REAL_ONE;
     }
     /* (1 - r2) 2^32: exact where it is small, for there r2 has 32 bits */
     root = ql_real_from_u64(((uint64_t)1 << 32) - ql_real_to_uq32(ratio2));
-    root.e = (int16_t)(root.e - 32);
-    root = ql_real_sqrt(root);
-    sum = ql_real_add(real_of(0x80000000u, -31), root);
+    root = ql_real_sqrt(ql_real_scale(root, -32));
+    sum = ql_real_add(QL_REAL_ONE, root);
     return ql_real_mul(ratio2, ql_real_recip(sum));
 }
 
@@ -292,53 +271,5 @@ ql_vec3_t ql_warp_cone(ql_real_t s_max, ql_uq32_t u1, ql_uq32_t u2)
 
 ql_real_t ql_warp_cone_pdf(ql_real_t s_max)
 {
-    return ql_real_mul(ql_real_recip(s_max), real_of(INV_2PI, -34));
-}
-
-/* Low word of floor(x 2^-29 + 1/2): wraps for what is no unit vector. */
-static uint32_t round_q58(int64_t x)
-{
-    return (uint32_t)(((uint64_t)ql_asr64(x, 28) + 1) >> 1);
-}
-
-void ql_frame_from_normal(ql_frame_t *frame, ql_vec3_t n)
-{
-    /* 1/(1 + |z|) in [1/2, 1], u0.32: 1 + |z| = d 2^-29, 2 or fewer zeros */
-    const uint32_t d = ((uint32_t)1 << 29) + ql_abs32(n.z);
-    const unsigned zeros = ql_clz32(d);
-    const uint32_t inverse = ql_recip_m(d << zeros) >> (2 - zeros);
-    /* x and y over 1 + |z|, then the products with x and y, s2.29 */
-    const int32_t x = ql_mulhi_su32(n.x, inverse);
-    const int32_t y = ql_mulhi_su32(n.y, inverse);
-    const uint32_t xx = round_q58((int64_t)n.x * x);
-    const uint32_t xy = round_q58((int64_t)n.x * y);
-    const uint32_t yy = round_q58((int64_t)n.y * y);
-    const bool down = n.z < 0;
-
-    frame->n = n;
-    /* (1 - xx, -xy, -+x) and +-(-xy, 1 - yy, -+y) */
-    frame->s.x = ql_i32((uint32_t)ONE_Q29 - xx);
-    frame->s.y = ql_i32(0u - xy);
-    frame->s.z = ql_i32(down ? (uint32_t)n.x : 0u - (uint32_t)n.x);
-    frame->t.x = ql_i32(down ? xy : 0u - xy);
-    frame->t.y = ql_i32(down ? yy - (uint32_t)ONE_Q29 : (uint32_t)ONE_Q29 - yy);
-    frame->t.z = ql_i32(0u - (uint32_t)n.y);
-}
-
-/* Each product below 2^61 (length 2 times 1, and rounding): the sum of three
- * is that of two lengths, below 2^60. */
-static ql_q29_t sum_q29(ql_vec3_t v, int32_t a, int32_t b, int32_t c)
-{
-    const int64_t sum = (int64_t)v.x * a + (int64_t)v.y * b + (int64_t)v.z * c;
-
-    return ql_i32(round_q58(sum));
-}
-
-ql_vec3_t ql_frame_to_world(const ql_frame_t *frame, ql_vec3_t v)
-{
-    const ql_vec3_t r = {sum_q29(v, frame->s.x, frame->t.x, frame->n.x),
-            sum_q29(v, frame->s.y, frame->t.y, frame->n.y),
-            sum_q29(v, frame->s.z, frame->t.z, frame->n.z)};
-
-    return r;
+    return ql_real_mul(ql_real_recip(s_max), QL_REAL_INV_2PI);
 }

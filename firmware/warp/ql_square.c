@@ -7,7 +7,7 @@
 #include "math/ql_trig.h"
 
 /* a times the radius, u0.32, to nearest: s1.30 to s2.29, with a sign. */
-static ql_q29_t along(int32_t a, uint32_t radius, bool negative)
+static ql_q29_t times_radius(int32_t a, uint32_t radius, bool negative)
 {
     const int32_t r = ql_asr32(ql_mulhi_su32(a, radius) + 1, 1);
 
@@ -33,6 +33,6 @@ void ql_warp_disk(ql_uq32_t u1, ql_uq32_t u2, ql_q29_t *x, ql_q29_t *y)
 
     ql_sincos(angle, &sine, &cosine);
     /* the larger's axis takes the cosine; each keeps its own sign */
-    *x = along(by_a ? cosine : sine, large << 1, a < 0);
-    *y = along(by_a ? sine : cosine, large << 1, b < 0);
+    *x = times_radius(by_a ? cosine : sine, large << 1, a < 0);
+    *y = times_radius(by_a ? sine : cosine, large << 1, b < 0);
 }

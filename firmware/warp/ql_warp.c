@@ -42,18 +42,3 @@ void ql_warp_triangle(ql_uq32_t u1, ql_uq32_t u2, uint32_t *b1, uint32_t *b2)
     *b1 = x < y ? x : 2 * x - y;
     *b2 = x < y ? 2 * y - x : y;
 }
-
-ql_vec3_t ql_dir_round(ql_vec3_t v)
-{
-    const uint32_t largest = ql_abs32(v.x) | ql_abs32(v.y) | ql_abs32(v.z);
-    const unsigned zeros = ql_clz32(largest);
-    const int32_t half = (int32_t)(1ul << (29 - QL_DIR_BITS));
-    const int32_t scale =
-            zeros > 2 && zeros < 32 ? (int32_t)(1ul << (zeros - 2)) : 1;
-
-    /* scaled below 2^30 (or exactly 2^30), then rounded to b bits */
-    v.x = ql_asr32(v.x * scale + half, 30 - QL_DIR_BITS);
-    v.y = ql_asr32(v.y * scale + half, 30 - QL_DIR_BITS);
-    v.z = ql_asr32(v.z * scale + half, 30 - QL_DIR_BITS);
-    return v;
-}

@@ -29,7 +29,7 @@ ql_vec3_t ql_warp_sphere(ql_uq32_t u1, ql_uq32_t u2);
  * A point of the unit sphere that touches the surface is at polar angle
  * 2 theta seen from its centre; cos(theta) = sqrt(1 - u1) in the frame whose
  * axis is n, so this is GI (35) without a frame and without normalising. The
- * zero vector can come out: see ql_dir_round().
+ * zero vector can come out: see ql_vec_to_dir().
  */
 ql_vec3_t ql_warp_cosine_hemisphere(ql_vec3_t n, ql_uq32_t u1, ql_uq32_t u2);
 
@@ -51,15 +51,5 @@ ql_vec3_t ql_warp_cosine_hemisphere(ql_vec3_t n, ql_uq32_t u1, ql_uq32_t u2);
  *        Between Triangle and Square", 2019.
  */
 void ql_warp_triangle(ql_uq32_t u1, ql_uq32_t u2, uint32_t *b1, uint32_t *b2);
-
-/* Round a direction of any length to QL_DIR_BITS.
- *
- *   v       any    components up to 2^30 in size
- *   return  s.b    the same direction, largest component 2^(b-1)..2^b in size;
- *           zero for zero
- *
- * Error: each component to nearest, so the angle within sqrt(3) 2^-b rad.
- */
-ql_vec3_t ql_dir_round(ql_vec3_t v);
 
 #endif

@@ -11,6 +11,7 @@
 #include "support/ql_test.h"
 #include "support/ql_wide.h"
 #include "qlux.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "scene/mesh/nodes.h"
 #include "trace/ql_bvh.h"
@@ -130,7 +131,7 @@ static int check_to(ql_vec3_t from, ql_vec3_t to)
     ql_ray_t ray = segment(from, to);
     const int side = check_ray(&ray);
 
-    ray.direction = ql_dir_round(ray.direction);
+    ray.direction = ql_vec_to_dir(ray.direction);
     if (!is_zero(ray.direction)) {
         (void)check_ray(&ray);
     }
@@ -954,7 +955,7 @@ static unsigned check_leaving(uint64_t *left)
     bool inside;
 
     ray.origin = from;
-    ray.direction = ql_dir_round(ql_vec_sub(
+    ray.direction = ql_vec_to_dir(ql_vec_sub(
             vec(random_in(8000, 24000) * ONE, random_in(8000, 24000) * ONE,
                     random_in(8000, 24000) * ONE),
             from));
@@ -965,7 +966,7 @@ static unsigned check_leaving(uint64_t *left)
     ray.origin = surface.p;
     inside = m.sphere_count > 0 && !hit.front;
     for (unsigned i = 0; i < 1000; i++) {
-        const ql_vec3_t d = ql_dir_round(vec(random_in(-(1l << 29), 1l << 29),
+        const ql_vec3_t d = ql_vec_to_dir(vec(random_in(-(1l << 29), 1l << 29),
                 random_in(-(1l << 29), 1l << 29),
                 random_in(-(1l << 29), 1l << 29)));
         ql_hit_t other;

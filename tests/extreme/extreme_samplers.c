@@ -6,6 +6,7 @@
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "sample/ql_alias.h"
 #include "warp/ql_lobe.h"
 #include "sample/ql_sampler.h"
@@ -99,7 +100,7 @@ static void check_cosine(ql_uq32_t u1, ql_uq32_t u2, unsigned c)
     for (unsigned i = 0; i < sizeof normals / sizeof normals[0]; i++) {
         const ql_vec3_t n = normals[i];
         const ql_vec3_t v = ql_warp_cosine_hemisphere(n, u1, u2);
-        const ql_vec3_t d = ql_dir_round(v);
+        const ql_vec3_t d = ql_vec_to_dir(v);
         const double cosine =
                 ((double)v.x * n.x + (double)v.y * n.y + (double)v.z * n.z) *
                 ONE * ONE;

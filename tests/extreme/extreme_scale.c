@@ -8,6 +8,7 @@
 #include "support/ql_points.h"
 #include "support/ql_test.h"
 #include "qlux.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
@@ -140,7 +141,7 @@ static void shoot(int32_t scale, uint16_t ids[RAYS], double t[RAYS])
         ray.origin = vec((8 + random_in(1, 30) * scale) * ONE,
                 (8 + random_in(1, 30) * scale) * ONE,
                 (8 + random_in(1, 30) * scale) * ONE);
-        ray.direction = ql_dir_round(vec(random_in(-(1l << 29), 1l << 29),
+        ray.direction = ql_vec_to_dir(vec(random_in(-(1l << 29), 1l << 29),
                 random_in(-(1l << 29), 1l << 29),
                 random_in(-(1l << 29), 1l << 29)));
         CHECK(ql_bvh_closest_hit(&scene, &ray, &hit), "a ray leaves the room");

@@ -9,6 +9,7 @@
 #include "support/ql_points.h"
 #include "support/ql_test.h"
 #include "qlux.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
@@ -250,14 +251,15 @@ static void check_rays(uint32_t count, unsigned rays)
         bool any = false, found;
 
         ray.origin = random_position();
-        ray.direction = ql_dir_round(ql_vec_sub(random_position(), ray.origin));
+        ray.direction =
+                ql_vec_to_dir(ql_vec_sub(random_position(), ray.origin));
         if (i & 1) { /* at a corner, so that something is hit */
             const ql_vec3_t c = ql_scene_corner(&scene,
                     scene.triangles +
                             stats_random_below(&state, (uint64_t)count),
                     i % 3);
 
-            ray.direction = ql_dir_round(ql_vec_sub(
+            ray.direction = ql_vec_to_dir(ql_vec_sub(
                     vec(c.x * ONE + 1, c.y * ONE + 1, c.z * ONE), ray.origin));
         }
         best.t = 0;

@@ -22,6 +22,7 @@
 #include "base/ql_crc.h"
 #include "math/ql_lut.h"
 #include "math/ql_trig.h"
+#include "math/ql_vec_unit.h"
 #include "qlux.h"
 #include "render/ql_path.h"
 #include "sample/ql_hash.h"
@@ -171,7 +172,7 @@ static void add_warps(void)
         cosine = crc_vec(cosine, ql_warp_cosine_hemisphere(n, u1, u2));
         ql_warp_triangle(u1, u2, &b1, &b2);
         triangle = crc_u32(crc_u32(triangle, b1), b2);
-        rounded = crc_vec(rounded, ql_dir_round(ql_warp_sphere(u1, u2)));
+        rounded = crc_vec(rounded, ql_vec_to_dir(ql_warp_sphere(u1, u2)));
     }
     add("warp_sphere", sphere);
     add("warp_cosine", cosine);

@@ -15,6 +15,7 @@
 #include "support/estimate.h"
 #include "support/ql_test.h"
 #include "qlux.h"
+#include "math/ql_vec_unit.h"
 #include "render/ql_direct.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
@@ -287,11 +288,11 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
                 ql_scene_material(scene, scene->triangles + hit.tri_idx),
                 hit.front, ray.direction);
         ql_direct_light(&path, dim, &bsdf, &one, &one);
-        n = ql_vec_unit(surface.n, surface.inv_n);
+        n = ql_vec_unit_q29_of_inv_n(surface.n, surface.inv_n);
         ray.origin = surface.p;
-        ray.direction = ql_dir_round(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
-        if (ql_vec_dot_n(ray.direction, surface.n) <= 0) {
-            ray.direction = ql_dir_round(n);
+        ray.direction = ql_vec_to_dir(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
+        if (ql_vec_dot_normal(ray.direction, surface.n) <= 0) {
+            ray.direction = ql_vec_to_dir(n);
         }
     }
 }

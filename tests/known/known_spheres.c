@@ -11,6 +11,7 @@
 #include "support/estimate.h"
 #include "support/ql_test.h"
 #include "qlux.h"
+#include "math/ql_vec_unit.h"
 #include "light/ql_aim.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
@@ -529,7 +530,7 @@ TEST(tree_of_spheres_finds_what_trying_each_one_finds)
             d.x = random_part(&random, range) * 128;
             d.y = random_part(&random, range) * 128;
             d.z = random_part(&random, range) * 128;
-            ray.direction = ql_dir_round(d);
+            ray.direction = ql_vec_to_dir(d);
             hit = nearest(&scene, &ray, &want);
             found = ql_bvh_closest_hit(&scene, &ray, &got);
             /* the tree keeps t as a fraction: it may round once more */

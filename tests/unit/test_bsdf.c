@@ -7,6 +7,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_lobe.h"
 #include "warp/ql_warp.h"
 #include "material/ql_bsdf.h"
@@ -155,7 +156,7 @@ static ql_vec3_t incoming_at(point_t n, double theta, double turn)
 
     across(n, &s, &t);
     d = along(along(point(0, 0, 0), -cos(theta), n), sin(theta) * cos(turn), s);
-    return ql_dir_round(to_q29(along(d, sin(theta) * sin(turn), t)));
+    return ql_vec_to_dir(to_q29(along(d, sin(theta) * sin(turn), t)));
 }
 
 #if QL_CFG_MIRROR
@@ -266,10 +267,10 @@ static double drawn_weight(draw_t draw)
 /* What the path tracer has always done; pictures depend on every bit. */
 static ql_vec3_t cosine_direction(ql_uniform2_t u)
 {
-    const ql_vec3_t n = ql_vec_unit(surface.n, surface.inv_n);
-    const ql_vec3_t d = ql_dir_round(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
+    const ql_vec3_t n = ql_vec_unit_q29_of_inv_n(surface.n, surface.inv_n);
+    const ql_vec3_t d = ql_vec_to_dir(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
 
-    return ql_vec_dot_n(d, surface.n) > 0 ? d : ql_dir_round(n);
+    return ql_vec_dot_normal(d, surface.n) > 0 ? d : ql_vec_to_dir(n);
 }
 
 static ql_vec3_t random_vec(int32_t most)
@@ -505,7 +506,7 @@ TEST(smooth_surfaces_lose_what_is_below_the_plane)
 /* Is a drawn direction where it should be, and its weight and density? */
 static void check_sample(const ql_bsdf_sample_t *sample, double most, bool pdf)
 {
-    const int64_t side = ql_vec_dot_n(sample->direction, surface.n);
+    const int64_t side = ql_vec_dot_normal(sample->direction, surface.n);
 
     CHECK(sample->through ? side < 0 : side > 0,
             "on the wrong side: %ld %ld %ld", (long)sample->direction.x,
@@ -1378,7 +1379,7 @@ static void check_grazing(long *reflected_count, long *through)
         set_normal(random_normal());
         incoming = incoming_at(
                 normal(), PI / 2, 2 * PI * stats_random_unit(&state));
-        if (ql_vec_dot_n(incoming, surface.n) >= 0) {
+        if (ql_vec_dot_normal(incoming, surface.n) >= 0) {
             continue;
         }
         see(k & 1, incoming);
@@ -1439,7 +1440,7 @@ static unsigned long extremes(double most)
                 set_shade(70);
             }
 #endif
-            see(k & 2, ql_dir_round(to_q29(unit(d))));
+            see(k & 2, ql_vec_to_dir(to_q29(unit(d))));
             for (int i = 0; i < CORNERS * CORNERS * CORNERS; i++) {
                 const ql_uniform2_t u = {
                         corners[i % CORNERS], corners[i / CORNERS % CORNERS]};

@@ -8,6 +8,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_points.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_tri.h"
@@ -248,7 +249,7 @@ static ql_ray_t random_ray(long i, ql_vec3_t *to)
     } else if (i % 4 == 3) {
         ray.origin = vec(c.x * ONE, c.y * ONE, c.z * ONE);
     }
-    ray.direction = ql_dir_round(ql_vec_sub(*to, ray.origin));
+    ray.direction = ql_vec_to_dir(ql_vec_sub(*to, ray.origin));
     return ray;
 }
 
@@ -422,7 +423,7 @@ TEST(of_equal_triangles_the_lowest_index_wins)
             ql_hit_t hit;
 
             to = vec(8000 * ONE, 8000 * ONE, 2000 * ONE);
-            ray.direction = ql_dir_round(ql_vec_sub(to, ray.origin));
+            ray.direction = ql_vec_to_dir(ql_vec_sub(to, ray.origin));
             if (ql_bvh_closest_hit(&scene, &ray, &hit)) {
                 hits++;
                 CHECK(hit.tri_idx == 0, "ray %ld: triangle %u", i, hit.tri_idx);
@@ -476,7 +477,7 @@ static long misses(void)
 
         ray.origin = inside(i);
         d = ql_vec_sub(to, ray.origin);
-        ray.direction = ql_dir_round(d);
+        ray.direction = ql_vec_to_dir(d);
         missed += !ql_bvh_closest_hit(&scene, &ray, &hit);
         ray.direction = vec(2 * d.x, 2 * d.y, 2 * d.z);
         d = vec(ray.origin.x + 2 * d.x, ray.origin.y + 2 * d.y,

@@ -7,13 +7,14 @@
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_square.h"
 #include "scene/ql_camera.h"
 
 #define ONE (1 << QL_POS_BITS)
 
 /* The stated bounds: half an ulp of an origin, of a direction the angle of
- * ql_dir_round(). Entering the box adds what 30 fraction bits of a direction
+ * ql_vec_to_dir(). Entering the box adds what 30 fraction bits of a direction
  * lose on the way: 2^-10 of a grid unit. */
 #define ORIGIN_BOUND (0.5 + ldexp(1, QL_POS_BITS - 10))
 #define ANGLE_BOUND  ldexp(sqrt(3), -QL_DIR_BITS)

@@ -6,6 +6,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
+#include "math/ql_frame.h"
 #include "warp/ql_lobe.h"
 #include "warp/ql_warp.h"
 

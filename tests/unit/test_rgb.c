@@ -253,6 +253,28 @@ TEST(sums_of_the_largest_do_not_wrap)
     }
 }
 
+/* A path of 64 bounces may be multiplied by 2^-4096 each time. Products keep
+ * their largest channel in [2^30, 2^31). */
+TEST(products_of_ever_smaller_numbers_become_zero)
+{
+    const ql_real_t small = {0x80000000u, -4127}; /* 2^-4096 */
+    ql_rgb_t by_real = {{0x80000000u, 0x40000000u, 1}, 0};
+    ql_rgb_t by_rgb = by_real;
+    const ql_rgb_t factor = {{0x80000000u, 0x80000000u, 0x80000000u}, -4096};
+
+    ql_rgb_scale(&by_real, small);
+    ql_rgb_mul(&by_rgb, &factor);
+    CHECK(by_real.e == -4095 && by_rgb.e == -4095, "e = %d and %d", by_real.e,
+            by_rgb.e);
+    for (int k = 1; k < 64; k++) {
+        ql_rgb_scale(&by_real, small);
+        ql_rgb_mul(&by_rgb, &factor);
+        CHECK(k < 2 || (ql_rgb_most(&by_real) == 0 &&
+                               ql_rgb_most(&by_rgb) == 0),
+                "2^-4096 to the %d: e = %d and %d", k + 1, by_real.e, by_rgb.e);
+    }
+}
+
 TEST(filters_round_to_nearest_and_keep_1)
 {
     uint64_t state = 6;
@@ -291,6 +313,7 @@ int main(int argc, char **argv)
     RUN(sums_are_within_an_ulp_of_2_to_the_minus_30);
     RUN(sums_with_zero_are_exact);
     RUN(sums_of_the_largest_do_not_wrap);
+    RUN(products_of_ever_smaller_numbers_become_zero);
     RUN(filters_round_to_nearest_and_keep_1);
     return TEST_END();
 }

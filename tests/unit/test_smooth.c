@@ -7,6 +7,7 @@
 #include "support/ql_points.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
@@ -157,7 +158,7 @@ static bool random_hit(ql_ray_t *ray, ql_hit_t *hit)
                       ONE));
 
     ray->origin = random_position();
-    ray->direction = ql_dir_round(ql_vec_sub(aim, ray->origin));
+    ray->direction = ql_vec_to_dir(ql_vec_sub(aim, ray->origin));
     return (ray->direction.x | ray->direction.y | ray->direction.z) != 0 &&
            ql_bvh_closest_hit(&one.scene, ray, hit);
 }

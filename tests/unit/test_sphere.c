@@ -8,6 +8,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "support/ql_wide.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
@@ -114,7 +115,7 @@ static ql_vec3_t random_direction(void)
     double u[3];
 
     random_unit(u);
-    return ql_dir_round(vec((int32_t)(u[0] * 536870912.0),
+    return ql_vec_to_dir(vec((int32_t)(u[0] * 536870912.0),
             (int32_t)(u[1] * 536870912.0), (int32_t)(u[2] * 536870912.0)));
 }
 
@@ -268,7 +269,7 @@ static ql_ray_t random_ray(long i)
         random_unit(u);
         ray.direction = random_direction();
         if (i / 4 % 4 == 1) { /* at the sphere */
-            ray.direction = ql_dir_round(
+            ray.direction = ql_vec_to_dir(
                     ql_vec_sub(beside_surface(-(double)one.r * between(0, 1)),
                             ray.origin));
         } else if (i / 4 % 4 == 2) { /* at the rim, or nearly */
@@ -293,7 +294,7 @@ static ql_ray_t random_ray(long i)
             }
             size = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
             size = 536870912.0 / fmax(size, 1);
-            ray.direction = ql_dir_round(vec((int32_t)(v[0] * size),
+            ray.direction = ql_vec_to_dir(vec((int32_t)(v[0] * size),
                     (int32_t)(v[1] * size), (int32_t)(v[2] * size)));
         } else if (i / 4 % 4 == 3) { /* along an axis */
             ray.direction = vec(0, 0, 0);

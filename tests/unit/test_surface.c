@@ -7,6 +7,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_points.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
@@ -130,7 +131,7 @@ static void random_hit(ql_ray_t *ray, ql_hit_t *hit)
 
                 ray->origin = vec(at.x * ONE, at.y * ONE, at.z * ONE);
             }
-            ray->direction = ql_dir_round(ql_vec_sub(aim(), ray->origin));
+            ray->direction = ql_vec_to_dir(ql_vec_sub(aim(), ray->origin));
             if ((ray->direction.x | ray->direction.y | ray->direction.z) != 0 &&
                     ql_bvh_closest_hit(&one.scene, ray, hit)) {
                 return;
@@ -281,7 +282,8 @@ TEST(points_stay_in_an_axis_aligned_room)
         ray.origin = vec(random_in(low[0] * ONE + 1, high[0] * ONE - 1),
                 random_in(low[1] * ONE + 1, high[1] * ONE - 1),
                 random_in(low[2] * ONE + 1, high[2] * ONE - 1));
-        ray.direction = ql_dir_round(ql_vec_sub(random_position(), ray.origin));
+        ray.direction =
+                ql_vec_to_dir(ql_vec_sub(random_position(), ray.origin));
         if ((ray.direction.x | ray.direction.y | ray.direction.z) == 0) {
             continue;
         }
@@ -308,7 +310,7 @@ static double unit_worst;
 
 static void check_unit(ql_vec3_t n)
 {
-    const ql_vec3_t u = ql_vec_unit(n, pack_inverse(n));
+    const ql_vec3_t u = ql_vec_unit_q29_of_inv_n(n, pack_inverse(n));
     const double size =
             sqrt((double)n.x * n.x + (double)n.y * n.y + (double)n.z * n.z);
     const double x = ldexp(u.x, -29) - n.x / size;

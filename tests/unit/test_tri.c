@@ -6,6 +6,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "support/ql_wide.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_tri.h"
 
@@ -143,7 +144,7 @@ static int check_to(ql_vec3_t from, ql_vec3_t to)
     ray.origin = from;
     ray.direction = ql_vec_sub(to, from);
     side = check_ray(&ray);
-    ray.direction = ql_dir_round(ray.direction);
+    ray.direction = ql_vec_to_dir(ray.direction);
     if ((ray.direction.x | ray.direction.y | ray.direction.z) != 0) {
         (void)check_ray(&ray);
     }
@@ -447,7 +448,7 @@ TEST(turning_the_corners_around_turns_the_side_and_nothing_else)
         random_triangle();
         memcpy(c, one.corner, sizeof c);
         ray.origin = random_position();
-        ray.direction = ql_dir_round(ql_vec_sub(aim(), ray.origin));
+        ray.direction = ql_vec_to_dir(ql_vec_sub(aim(), ray.origin));
         for (unsigned k = 0; k < 6; k++) {
             const unsigned a = k % 3, step = k < 3 ? 1 : 2;
 

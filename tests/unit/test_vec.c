@@ -65,9 +65,9 @@ TEST(dot_products_with_a_normal_are_exact_at_the_ends_of_the_box)
             a.z *= 1 << QL_POS_BITS;
             exact = (int64_t)a.x * n.x + (int64_t)a.y * n.y +
                     (int64_t)a.z * n.z;
-            CHECK(ql_vec_dot_n(a, n) == exact, "triples %u, %u, %u: %lld",
+            CHECK(ql_vec_dot_normal(a, n) == exact, "triples %u, %u, %u: %lld",
                     (unsigned)k, (unsigned)i, (unsigned)j,
-                    (long long)ql_vec_dot_n(a, n));
+                    (long long)ql_vec_dot_normal(a, n));
         }
     }
 }

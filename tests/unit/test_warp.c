@@ -7,6 +7,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_warp.h"
 
 #define PI           3.14159265358979323846
@@ -284,7 +285,7 @@ static point_t cosine(uint32_t u1, uint32_t u2)
     point_t p;
 
     if (round_direction) {
-        v = ql_dir_round(v);
+        v = ql_vec_to_dir(v);
     }
     p = from_q29(v);
     return scaled(p, 1 / fmax(length(p), 1e-300));
@@ -405,7 +406,7 @@ TEST(directions_below_the_horizon_are_as_rare_as_stated)
         if ((i & 1023) == 0) {
             normal_q29 = normal_of(6 + (unsigned)(i >> 10 & 255));
         }
-        v = ql_dir_round(ql_warp_cosine_hemisphere(
+        v = ql_vec_to_dir(ql_warp_cosine_hemisphere(
                 normal_q29, (uint32_t)bits, (uint32_t)(bits >> 32)));
         below += (int64_t)v.x * normal_q29.x + (int64_t)v.y * normal_q29.y +
                          (int64_t)v.z * normal_q29.z <=
@@ -430,7 +431,7 @@ static int32_t signed30(uint64_t *state)
 
 static void check_round(ql_vec3_t v)
 {
-    const ql_vec3_t d = ql_dir_round(v);
+    const ql_vec3_t d = ql_vec_to_dir(v);
     const point_t a = {v.x, v.y, v.z}, b = {d.x, d.y, d.z};
     const point_t cross = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
             a.x * b.y - a.y * b.x};
@@ -485,7 +486,7 @@ TEST(rounded_directions_have_full_size_and_a_bounded_angle)
 TEST(a_zero_direction_stays_zero)
 {
     const ql_vec3_t zero = {0, 0, 0};
-    const ql_vec3_t d = ql_dir_round(zero);
+    const ql_vec3_t d = ql_vec_to_dir(zero);
 
     CHECK((d.x | d.y | d.z) == 0, "%ld %ld %ld", (long)d.x, (long)d.y,
             (long)d.z);

@@ -4,6 +4,7 @@
 #include "bench/rays/bench_rays.h"
 
 #include "base/ql_settings.h"
+#include "math/ql_vec_unit.h"
 #include "light/ql_aim.h"
 #include "warp/ql_warp.h"
 #include "light/ql_light.h"
@@ -13,11 +14,11 @@
 /* As cosine_direction() of ql_bsdf.c. Out of line, so that it can be timed. */
 QL_NOINLINE ql_vec3_t bench_direction(const bench_warp_t *warp)
 {
-    const ql_vec3_t n = ql_vec_unit(warp->n, warp->inv_n);
+    const ql_vec3_t n = ql_vec_unit_q29_of_inv_n(warp->n, warp->inv_n);
     const ql_vec3_t d =
-            ql_dir_round(ql_warp_cosine_hemisphere(n, warp->u.u1, warp->u.u2));
+            ql_vec_to_dir(ql_warp_cosine_hemisphere(n, warp->u.u1, warp->u.u2));
 
-    return ql_vec_dot_n(d, warp->n) > 0 ? d : ql_dir_round(n);
+    return ql_vec_dot_normal(d, warp->n) > 0 ? d : ql_vec_to_dir(n);
 }
 
 /* As ql_direct_light(), up to the segment it tests. */
@@ -36,7 +37,7 @@ static void add_shadow(bench_batch_t *batch, const ql_scene_t *scene,
     ray.origin = surface->p;
     if (ql_aim_at_point(scene, light, surface->p, u, &point, &ray.direction) >
                     0 &&
-            ql_vec_dot_n(ray.direction, surface->n) > 0) {
+            ql_vec_dot_normal(ray.direction, surface->n) > 0) {
         batch->shadow[batch->shadow_count++] = ray;
     }
 }

@@ -4,6 +4,7 @@
 #include "bench/warps/warp_list.h"
 
 #include "bench_tables.h"
+#include "math/ql_frame.h"
 #include "sample/ql_alias.h"
 #include "sample/ql_cdf.h"
 #include "warp/ql_lobe.h"

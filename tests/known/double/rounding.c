@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "support/picture/film_add.h"
+#include "math/ql_frame.h"
 #include "math/ql_rgb.h"
 #include "math/ql_trig.h"
+#include "math/ql_vec_unit.h"
 #include "warp/ql_lobe.h"
 #include "warp/ql_warp.h"
 #include "light/ql_light.h"
@@ -278,7 +280,7 @@ static void round_normal(void *data, const ref_surface_t *surface, ref_vec_t *n)
     ref_vec_t unit;
 
     if (is_on(r, ROUNDING_NORMAL)) {
-        unit = from_integers(ql_vec_unit(normal_of(r, surface),
+        unit = from_integers(ql_vec_unit_q29_of_inv_n(normal_of(r, surface),
                                      QL_LE32(triangle_of(r, surface)->inv_n)),
                 1 / UNIT_Q);
         count(r, ROUNDING_NORMAL, ref_length(ref_sub(unit, *n)) * UNIT_Q);
@@ -401,9 +403,9 @@ static void round_direction(
     if (!is_on(r, ROUNDING_COSINE)) {
         return;
     }
-    d = ql_dir_round(to_integers(*w, UNIT_Q));
-    if (ql_vec_dot_n(d, normal) <= 0) { /* as ql_bsdf_diffuse() */
-        d = ql_dir_round(to_integers(n, UNIT_Q));
+    d = ql_vec_to_dir(to_integers(*w, UNIT_Q));
+    if (ql_vec_dot_normal(d, normal) <= 0) { /* as ql_bsdf_diffuse() */
+        d = ql_vec_to_dir(to_integers(n, UNIT_Q));
         r->fallbacks++;
         *w = from_integers(d, 1);
         return;
