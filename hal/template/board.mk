@@ -1,4 +1,5 @@
-# board.mk - what make needs to know of a board; copy this folder to begin a port
+# board.mk - what make needs to know of a board; copy it to begin a port
+# SPDX-License-Identifier: MIT
 # Prefix of the compiler's name, and its options for this CPU.
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0 -mthumb

@@ -1,3 +1,6 @@
+# cornell.mk - what the Cornell box on a board with a grey panel needs
+# SPDX-License-Identifier: MIT
+
 config_cornell := -DQL_CFG_PRECISION=0 -DQL_CFG_NODE8=0 -DQL_CFG_PAGES=0 \
     -DQL_CFG_TWO_SIDED=0 -DQL_CFG_SPHERES=0 -DQL_CFG_SMOOTH=0 \
     -DQL_CFG_PHONG=0 -DQL_CFG_MIRROR=0 -DQL_CFG_GLASS=0 -DQL_CFG_SKY=0 \

@@ -142,7 +142,8 @@ function fill(    order, i, k, g, l, n, best, choice, gain)
         for (l = first[g]; l <= last[g]; l++) {
             n = count(l)
             row[g] = l
-            if (possible(1) && (n > best || (n == best && used[l] < used[choice]))) {
+            if (possible(1) &&
+                (n > best || (n == best && used[l] < used[choice]))) {
                 best = n
                 choice = l
             }

@@ -17,8 +17,7 @@ only=${1:-}
 built=${BUILD:-build}
 out=$built/golden
 sums=tests/golden/checksums.txt
-warn='-std=c99 -pedantic -Wall -Wextra -Wconversion -Wshadow -Wundef'
-warn="$warn -Wmissing-prototypes -Werror"
+warn="-std=c99 -pedantic $(sed -n 's/^export WARN := //p' Makefile) -Werror"
 . tests/support/claims.sh
 ran=0
 core=$(ls firmware/*/*.c | grep -v /app/)

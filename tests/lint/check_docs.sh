@@ -23,7 +23,20 @@ bad=$(for f in $sources; do
 done)
 say_none every_source_begins_with_its_name_and_one_line "$bad"
 
-bad=$(for f in $sources; do
+# Below the #! of a script.
+bad=$(git ls-files Makefile '*.mk' '*.awk' '*.sh' | while IFS= read -r f; do
+    sed '1{/^#!/d;}' "$f" | awk -v f="$f" -v name="$(basename "$f")" '
+        NR == 1 && (index($0, "# " name " - ") != 1 || length($0) > 80) {
+            print f ": its first line"
+        }
+        NR == 2 && $0 != "# SPDX-License-Identifier: MIT" {
+            print f ": its licence"
+        }
+        NR == 2 { exit }'
+done)
+say_none every_makefile_and_script_begins_so_too "$bad"
+
+bad=$(for f in $sources $(git ls-files Makefile '*.mk' '*.awk'); do
     case $f in
     *ql_lut_data.c) ;;
     *) awk -v f="$f" 'length($0) > 80 { print f ":" FNR }' "$f" ;;

@@ -4,16 +4,16 @@
 #
 # usage: tests/lint/check_objects.sh
 #
-# For each CPU and precision: no warning; no undefined symbol but the core's own,
-# memcpy, memset and integer helpers; no 64-bit division. Prints one claim each;
-# exit 1 if any fails.
+# For each CPU and precision: no warning; no undefined symbol but the core's
+# own, memcpy, memset and integer helpers; no 64-bit division. Prints one claim
+# each; exit 1 if any fails.
 #
 # Example: tests/lint/check_objects.sh
 
 set -u
 out=${BUILD:-build}/check-objects
-flags='-std=c99 -pedantic -ffreestanding -Wall -Wextra -Wconversion -Wshadow
-    -Wundef -Wmissing-prototypes -Werror -O2 -ffunction-sections -Ifirmware -Ihal'
+flags="-std=c99 -pedantic -ffreestanding -Werror -O2 -ffunction-sections
+    $(sed -n 's/^export WARN := //p' Makefile) -Ifirmware -Ihal"
 . tests/support/claims.sh
 
 # name, tool prefix, flags of each CPU the core is built for
@@ -46,11 +46,14 @@ check_cpu()
 
         # Floating-point helpers of libgcc, every ABI's spelling, and the heap.
         bad=$(${prefix}nm -u "$dir"/*.o | awk '{ print $NF }' | sort -u |
-            grep -E '^(__aeabi_[fd]|__aeabi_[ui]l?2[fd]|__aeabi_cd|__aeabi_cf|__.*(sf|df|xf|tf)[0-9]*$|__(fix|float).*|malloc|calloc|realloc|free|_sbrk|printf|abort)')
+            grep -E -e '^(__aeabi_[fd]|__aeabi_[ui]l?2[fd]|__aeabi_c[df])' \
+                -e '^(__.*(sf|df|xf|tf)[0-9]*$|__fix|__float)' \
+                -e '^(malloc|calloc|realloc|free|_sbrk|printf|abort)')
         say_none no_float_helper_and_no_heap_is_referenced "$bad"
 
         bad=$(for object in "$dir"/*.o; do
-            ${prefix}objdump -dr "$object" | awk -v object="$(basename "$object")" '
+            ${prefix}objdump -dr "$object" |
+                awk -v object="$(basename "$object")" '
                 /^[0-9a-f]+ <[^.].*>:$/ { name = $2 }
                 /__aeabi_u?ldivmod|__u?(div|mod)di3|__udivmoddi4/ {
                     print object ":" name

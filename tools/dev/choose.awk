@@ -139,7 +139,7 @@ function users(what,    i, names)
     return "make " listed(names, "and") (names ~ / .* / ? " do" : " does")
 }
 
-FNR == NR && /^(#|$)/ { next }
+FNR == NR && /^(#|$| )/ { next }
 
 FNR == NR && $1 == "use" {
     target[++n_targets] = $2
@@ -155,7 +155,7 @@ FNR == NR {
     standard[$1] = $3
     option[$1] = $4
     c_name[$1] = $5
-    for (i = 6; $i != ":"; i++)
+    for (i = 6; i <= NF; i++)
         of[$1] = of[$1] (i > 6 ? " " : "") $i
     if (ENVIRON[$1] != "")
         value[$1] = ENVIRON[$1]

@@ -9,7 +9,8 @@ Install, with apt, what "make test" needs and this machine lacks; says what it
 installs. The renderer, the simulator and the tools need none of it: only a C
 compiler and make.
 
-  --check       install nothing; exit 1 and print the command if something lacks
+  --check       install nothing; if something is missing, exit 1 and print the
+                command
   NO_INSTALL=1  the same, from the environment
 
 Example: NO_INSTALL=1 tools/dev/setup.sh

@@ -5,10 +5,10 @@
 usage() {
     cat <<'END'
 usage: tools/dev/size_report.sh [--files] ELF PREFIX
-Print a row "NAME: BYTES" for each folder of sources, "libgcc" for the compiler's
-own functions, "data" for the scene's blob, and "rest": strings, tables the
-compiler made, alignment. With --files a row for each source instead of each
-folder. Together they are the flash of ELF.
+Print a row "NAME: BYTES" for each folder of sources, "libgcc" for the
+compiler's own functions, "data" for the scene's blob, and "rest": strings,
+tables the compiler made, alignment. With --files a row for each source instead
+of each folder. Together they are the flash of ELF.
 
 Each instruction counts for the line it was compiled from, wherever inlining and
 link-time optimisation put it; a constant that code loads from beside it for the
@@ -157,8 +157,8 @@ END {
         }
         exit
     }
-    n = split("base math sample warp scene blob trace material light film render" \
-        " app hal libgcc data rest", module, " ")
+    n = split("base math sample warp scene blob trace material light film" \
+        " render app hal libgcc data rest", module, " ")
     for (i = 1; i <= n; i++) {
         print module[i] ": " bytes[module[i]] + 0
     }

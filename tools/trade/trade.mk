@@ -1,12 +1,7 @@
 # trade.mk - what every choice costs and how exact it is
 # SPDX-License-Identifier: MIT
 #
-#   make trade -> trade.sh            what is to be measured
-#                  |-> rules.awk      choices.txt to rules of make, rules.mk
-#                  |-> make tools trade-measure TRADE_RULES=rules.mk
-#                  |     '-> the recipes below: qlux-scene, qlux-ref, trade_error
-#                  |           and, for instructions, make bench-board BOARD=b
-#                  '-> qlux-trade     the table of all measurements, and drawings
+# The head of trade.sh draws who calls whom.
 
 trade: ## Error against instructions of every choice: build/trade.csv, .svg
 	@MAKE='$(MAKE)' tools/trade/trade.sh

@@ -1,6 +1,12 @@
 #!/bin/sh
 # trade.sh - error against instructions of every choice, measured and drawn
 # SPDX-License-Identifier: MIT
+#
+#   make trade --> trade.sh --> rules.awk      choices.txt to rules.mk
+#                     |-------> make trade-measure TRADE_RULES=rules.mk
+#                     |           |--> qlux-scene, qlux-ref, trade_error
+#                     |           '--> make bench-board BOARD=b: instructions
+#                     '-------> qlux-trade     the table and the drawings of all
 
 usage() {
     cat <<'END'
@@ -9,8 +15,8 @@ usage: tools/trade/trade.sh [--quick]
 Measure every choice of tools/trade/choices.txt in three scenes: the error of
 the picture against two references in double precision, as samples double, and
 the instructions of a sample on an emulated Cortex-M0, M3 and M4F. Writes
-build/trade.csv, build/trade.svg and .png, and prints for each scene and core the
-cheapest choice for an error of 10 %, 3 % and 1 %.
+build/trade.csv, build/trade.svg and .png, and prints for each scene and core
+the cheapest choice for an error of 10 %, 3 % and 1 %.
 
 What is measured is kept in build/trade: a run that was stopped goes on where it
 was, and a change measures again what depends on it.
@@ -56,7 +62,8 @@ progress() {
             (n - first)))
         if [ -t 2 ]; then
             awk -v n="$n" -v total="$total" -v left="$left" 'BEGIN {
-                for (i = 0; i < 40; i++) bar = bar (i < 40 * n / total ? "#" : ".")
+                for (i = 0; i < 40; i++)
+                    bar = bar (i < 40 * n / total ? "#" : ".")
                 printf "\rmeasuring [%s] %d of %d", bar, n, total
                 if (left != "") printf ", %d:%02d left ", left / 60, left % 60
             }' >&2

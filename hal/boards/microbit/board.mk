@@ -1,4 +1,5 @@
 # board.mk - BBC micro:bit: Cortex-M0, 256 KB flash, 16 KB RAM
+# SPDX-License-Identifier: MIT
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m0 -mthumb
 BOARD_CORE := cortex-m0

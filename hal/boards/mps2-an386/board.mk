@@ -1,4 +1,5 @@
 # board.mk - Arm MPS2 with AN386: Cortex-M4F, 4 MB of each memory
+# SPDX-License-Identifier: MIT
 BOARD_CROSS := arm-none-eabi-
 BOARD_CPU := -mcpu=cortex-m4 -mthumb -mfloat-abi=soft
 BOARD_CORE := cortex-m4f

@@ -1,4 +1,5 @@
 # board.mk - SiFive HiFive1: RV32IMAC, 16 MB flash read in place, 16 KB RAM
+# SPDX-License-Identifier: MIT
 BOARD_CROSS := riscv64-unknown-elf-
 BOARD_CPU := -march=rv32imac -mabi=ilp32 -mcmodel=medany -msmall-data-limit=0
 BOARD_CORE := rv32imac
@@ -8,4 +9,5 @@ BOARD_STACK := 3072
 BOARD_SIZE := 64x64
 BOARD_SPP := 4
 BOARD_QEMU := qemu-system-riscv32 -M sifive_e -bios none
-BOARD_FLASH := openocd -f board/sifive-hifive1.cfg -c "program $$elf verify reset exit"
+BOARD_FLASH := openocd -f board/sifive-hifive1.cfg \
+    -c "program $$elf verify reset exit"
