@@ -3,6 +3,7 @@
 
 #include "scene/build/build_camera.h"
 
+#include "lib/math/soft_vec.h"
 #include "lib/program/cli.h"
 
 #define DIRECTION_BITS 30
@@ -11,66 +12,11 @@
 #define ASPECT_LEAST   4
 #define LENS_MOST      256 /* radius over focus */
 
-typedef struct {
-    soft_t k[3];
-} vector_t;
-
-static soft_t dot(vector_t a, vector_t b)
-{
-    soft_t sum = soft_mul(a.k[0], b.k[0]);
-
-    sum = soft_add(sum, soft_mul(a.k[1], b.k[1]));
-    return soft_add(sum, soft_mul(a.k[2], b.k[2]));
-}
-
-static vector_t cross(vector_t a, vector_t b)
-{
-    vector_t c;
-
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        c.k[k] = soft_sub(soft_mul(a.k[i], b.k[j]), soft_mul(a.k[j], b.k[i]));
-    }
-    return c;
-}
-
-static vector_t scale(vector_t a, soft_t by)
-{
-    for (int k = 0; k < 3; k++) {
-        a.k[k] = soft_mul(a.k[k], by);
-    }
-    return a;
-}
-
-static vector_t add(vector_t a, vector_t b)
-{
-    for (int k = 0; k < 3; k++) {
-        a.k[k] = soft_add(a.k[k], b.k[k]);
-    }
-    return a;
-}
-
-static vector_t unit(vector_t a)
-{
-    return scale(a, soft_div(soft_int(1, 0), soft_sqrt(dot(a, a))));
-}
-
-static vector_t from_doubles(const double a[3])
-{
-    vector_t v;
-
-    for (int k = 0; k < 3; k++) {
-        v.k[k] = soft_from(a[k]);
-    }
-    return v;
-}
-
 /* Forward; right and up already times tan(fov / 2). A lens is two half axes of
  * its rim in grid units, and what each takes from directions; 0 if none. */
 typedef struct {
-    vector_t forward, right, up;
-    vector_t rim[2], tilt[2];
+    soft_vec_t forward, right, up;
+    soft_vec_t rim[2], tilt[2];
 } frame_t;
 
 static frame_t frame_of(const world_t *world, const grid_t *grid)
@@ -78,27 +24,28 @@ static frame_t frame_of(const world_t *world, const grid_t *grid)
     const world_camera_t *camera = &world->camera;
     const soft_t tangent = soft_tan_half(soft_from(camera->fov));
     const soft_t radius = soft_from(world->lens.radius);
-    vector_t view = from_doubles(camera->look);
+    soft_vec_t view = soft_vec_from(camera->look);
     frame_t frame;
 
     for (int k = 0; k < 3; k++) {
         view.k[k] = soft_sub(view.k[k], soft_from(camera->eye[k]));
     }
-    frame.forward = unit(view);
-    frame.right = unit(cross(frame.forward, from_doubles(camera->up)));
-    frame.up = cross(frame.right, frame.forward);
+    frame.forward = soft_vec_unit(view);
+    frame.right = soft_vec_unit(
+            soft_vec_cross(frame.forward, soft_vec_from(camera->up)));
+    frame.up = soft_vec_cross(frame.right, frame.forward);
     for (int i = 0; i < 2; i++) {
-        const vector_t axis = i == 0 ? frame.right : frame.up;
+        const soft_vec_t axis = i == 0 ? frame.right : frame.up;
         const soft_t zero = soft_int(0, 0);
 
-        frame.rim[i] = scale(axis, soft_div(radius, grid->unit));
-        frame.tilt[i] = scale(
+        frame.rim[i] = soft_vec_scale(axis, soft_div(radius, grid->unit));
+        frame.tilt[i] = soft_vec_scale(
                 axis, radius.m == 0 ? zero
                                     : soft_negate(soft_div(radius,
                                               soft_from(world->lens.focus))));
     }
-    frame.up = scale(frame.up, tangent);
-    frame.right = scale(frame.right, tangent);
+    frame.up = soft_vec_scale(frame.up, tangent);
+    frame.right = soft_vec_scale(frame.right, tangent);
     return frame;
 }
 
@@ -150,9 +97,9 @@ static void put_wide(uint32_t words[2], int64_t value)
 }
 
 /* The eye in grid units. */
-static vector_t eye_on_grid(const world_t *world, const grid_t *grid)
+static soft_vec_t eye_on_grid(const world_t *world, const grid_t *grid)
 {
-    vector_t eye;
+    soft_vec_t eye;
 
     for (int k = 0; k < 3; k++) {
         const soft_t x =
@@ -165,12 +112,13 @@ static vector_t eye_on_grid(const world_t *world, const grid_t *grid)
 
 /* Depth of the nearest corner of the box and its margin; 0 if none is before
  * the eye or the scene is empty. */
-static soft_t nearest_depth(const grid_t *grid, vector_t eye, vector_t forward)
+static soft_t nearest_depth(
+        const grid_t *grid, soft_vec_t eye, soft_vec_t forward)
 {
     soft_t nearest = soft_int(0, 0);
 
     for (int corner = 0; corner < 8 && grid->face_count > 0; corner++) {
-        vector_t way;
+        soft_vec_t way;
         soft_t depth;
 
         for (int k = 0; k < 3; k++) {
@@ -179,7 +127,7 @@ static soft_t nearest_depth(const grid_t *grid, vector_t eye, vector_t forward)
 
             way.k[k] = soft_sub(soft_int(at, 0), eye.k[k]);
         }
-        depth = dot(way, forward);
+        depth = soft_vec_dot(way, forward);
         if (depth.m == 0 || depth.negative) {
             return soft_int(0, 0);
         }
@@ -208,7 +156,7 @@ static soft_t absolute(soft_t a)
 
 /* Where rays begin, in grid units. */
 typedef struct {
-    vector_t p, pr, pu, rim[2];
+    soft_vec_t p, pr, pu, rim[2];
 } origins_t;
 
 static void check_reach(
@@ -261,7 +209,7 @@ static void check_lens(const world_t *world)
 /* On the plane at depth, on which every ray begins: the point of the pinhole's
  * ray, moved by the lens as much as is left there of where it is at the eye. */
 static origins_t origins_at(const world_t *world, const grid_t *grid,
-        const frame_t *frame, vector_t eye, soft_t depth)
+        const frame_t *frame, soft_vec_t eye, soft_t depth)
 {
     const soft_t far = soft_div(
             depth, world->lens.radius > 0
@@ -270,11 +218,11 @@ static origins_t origins_at(const world_t *world, const grid_t *grid,
     const soft_t left = soft_sub(soft_int(1, 0), far);
     origins_t o;
 
-    o.p = add(eye, scale(frame->forward, depth));
-    o.pr = scale(frame->right, depth);
-    o.pu = scale(frame->up, depth);
-    o.rim[0] = scale(frame->rim[0], left);
-    o.rim[1] = scale(frame->rim[1], left);
+    o.p = soft_vec_add(eye, soft_vec_scale(frame->forward, depth));
+    o.pr = soft_vec_scale(frame->right, depth);
+    o.pu = soft_vec_scale(frame->up, depth);
+    o.rim[0] = soft_vec_scale(frame->rim[0], left);
+    o.rim[1] = soft_vec_scale(frame->rim[1], left);
     return o;
 }
 
@@ -283,7 +231,7 @@ void build_camera(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
 {
     const frame_t frame = frame_of(world, grid);
     const int64_t aspect = aspect_of(world);
-    const vector_t eye = eye_on_grid(world, grid);
+    const soft_vec_t eye = eye_on_grid(world, grid);
     const soft_t depth = nearest_depth(grid, eye, frame.forward);
     const origins_t o = origins_at(world, grid, &frame, eye, depth);
     int bits = DIRECTION_BITS;

@@ -6,57 +6,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/math/soft_vec.h"
 #include "lib/program/cli.h"
 #include "scene/mesh/triples.h"
 
-static soft_t dot(const soft_t a[3], const soft_t b[3])
-{
-    const soft_t xy = soft_add(soft_mul(a[0], b[0]), soft_mul(a[1], b[1]));
-
-    return soft_add(xy, soft_mul(a[2], b[2]));
-}
-
-static void cross(const soft_t a[3], const soft_t b[3], soft_t c[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-
-        c[k] = soft_sub(soft_mul(a[i], b[j]), soft_mul(a[j], b[i]));
-    }
-}
-
 /* e1 x e2 of a face as written. */
-static void world_normal(
-        const world_t *world, const world_face_t *face, soft_t n[3])
+static soft_vec_t find_normal(const world_t *world, const world_face_t *face)
 {
-    const double *p = world->vertices[face->vertex[0]];
-    soft_t e[2][3];
+    const soft_vec_t p = soft_vec_from(world->vertices[face->vertex[0]]);
+    soft_vec_t e[2];
 
     for (int i = 0; i < 2; i++) {
-        const double *q = world->vertices[face->vertex[i + 1]];
-
-        for (int k = 0; k < 3; k++) {
-            e[i][k] = soft_sub(soft_from(q[k]), soft_from(p[k]));
-        }
+        e[i] = soft_vec_sub(
+                soft_vec_from(world->vertices[face->vertex[i + 1]]), p);
     }
-    cross(e[0], e[1], n);
+    return soft_vec_cross(e[0], e[1]);
 }
 
 /* Is the sine of the angle between two lines at most 2^-13? */
-static bool is_parallel(const soft_t a[3], const soft_t b[3])
+static bool is_parallel(soft_vec_t a, soft_vec_t b)
 {
-    soft_t limit = soft_mul(dot(a, a), dot(b, b));
-    soft_t c[3];
+    const soft_vec_t c = soft_vec_cross(a, b);
+    soft_t limit = soft_mul(soft_vec_dot(a, a), soft_vec_dot(b, b));
 
-    cross(a, b, c);
     limit.e -= 26;
-    return soft_compare(dot(c, c), limit) <= 0;
+    return soft_compare(soft_vec_dot(c, c), limit) <= 0;
 }
 
 /* To s0.15 of length 1; false if there is none. */
-static bool round_normal(const soft_t n[3], int16_t rounded[3])
+static bool round_normal(soft_vec_t n, int16_t rounded[3])
 {
-    const soft_t square = dot(n, n);
+    const soft_t square = soft_vec_dot(n, n);
     soft_t scale;
 
     if (square.m == 0) {
@@ -64,7 +44,7 @@ static bool round_normal(const soft_t n[3], int16_t rounded[3])
     }
     scale = soft_div(soft_int(INT16_MAX, 0), soft_sqrt(square));
     for (int k = 0; k < 3; k++) {
-        rounded[k] = (int16_t)soft_round(soft_mul(n[k], scale), 0);
+        rounded[k] = (int16_t)soft_round(soft_mul(n.k[k], scale), 0);
     }
     return true;
 }
@@ -90,21 +70,17 @@ static bool find_normals(const grid_t *grid, const world_t *world,
     const world_face_t *from = world->faces + face->source;
     bool curved = false;
     int64_t front[3];
-    soft_t own[3];
+    soft_vec_t own;
 
     if (face->sphere != 0 || from->normal[0] == 0 || from->normal[1] == 0 ||
             from->normal[2] == 0) {
         return false;
     }
-    world_normal(world, from, own);
+    own = find_normal(world, from);
     grid_normal(grid, face, front);
     for (int i = 0; i < 3; i++) {
-        const double *given = world->normals[from->normal[i] - 1];
-        soft_t n[3];
+        const soft_vec_t n = soft_vec_from(world->normals[from->normal[i] - 1]);
 
-        for (int k = 0; k < 3; k++) {
-            n[k] = soft_from(given[k]);
-        }
         if (!round_normal(n, normals[i]) || !turn_normal(normals[i], front)) {
             return false;
         }

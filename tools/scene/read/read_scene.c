@@ -13,7 +13,7 @@
 #include "scene/read/read_sky.h"
 #include "scene/read/read_table.h"
 #include "scene/ql_blob.h"
-#include "lib/math/soft.h"
+#include "lib/math/soft_vec.h"
 
 #define EXPOSURE_MAX 64
 
@@ -76,53 +76,22 @@ static unsigned read_named(text_t *text, const named_t *values, unsigned count)
     return seen;
 }
 
-/* The squared length of (a - b) x up. */
-static soft_t cross_square(
-        const double a[3], const double b[3], const double up[3])
-{
-    soft_t sum = soft_int(0, 0);
-
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const soft_t fj = soft_sub(soft_from(a[j]), soft_from(b[j]));
-        const soft_t fk = soft_sub(soft_from(a[k]), soft_from(b[k]));
-        const soft_t c = soft_sub(
-                soft_mul(fj, soft_from(up[k])), soft_mul(fk, soft_from(up[j])));
-
-        sum = soft_add(sum, soft_mul(c, c));
-    }
-    return sum;
-}
-
-/* The squared length of a - b. */
-static soft_t distance_square(const double a[3], const double b[3])
-{
-    soft_t sum = soft_int(0, 0);
-
-    for (int k = 0; k < 3; k++) {
-        const soft_t d = soft_sub(soft_from(a[k]), soft_from(b[k]));
-
-        sum = soft_add(sum, soft_mul(d, d));
-    }
-    return sum;
-}
-
 static void check_camera(const text_t *text, const world_camera_t *camera)
 {
-    static const double zero[3] = {0, 0, 0};
-    const soft_t view = distance_square(camera->look, camera->eye);
-    const soft_t up = distance_square(camera->up, zero);
-    soft_t least = soft_mul(view, up);
+    const soft_vec_t up = soft_vec_from(camera->up);
+    const soft_vec_t view = soft_vec_sub(
+            soft_vec_from(camera->look), soft_vec_from(camera->eye));
+    const soft_vec_t side = soft_vec_cross(view, up);
+    soft_t least = soft_mul(soft_vec_dot(view, view), soft_vec_dot(up, up));
 
-    if (view.m == 0) {
+    if (soft_vec_dot(view, view).m == 0) {
         text_fail(text, "expected camera 'eye' and 'look' at different points");
     }
-    if (up.m == 0) {
+    if (soft_vec_dot(up, up).m == 0) {
         text_fail(text, "expected camera 'up' that is not 0 0 0");
     }
     least.e -= 40; /* sin^2 of the angle: a millionth, squared */
-    if (soft_compare(cross_square(camera->look, camera->eye, camera->up),
-                least) <= 0) {
+    if (soft_compare(soft_vec_dot(side, side), least) <= 0) {
         text_fail(text, "expected camera 'up' not parallel to the view");
     }
 }
