@@ -21,7 +21,7 @@ static void print_features(FILE *file, uint32_t features)
 }
 
 /* Leaves of the tree: a binary tree has one more than inner nodes. */
-static uint32_t leaf_count(const model_t *model)
+static uint32_t count_leaves(const model_t *model)
 {
     return model->triangles_count > 0 ? model_pair_count(model) + 1 : 0;
 }
@@ -70,7 +70,7 @@ static void print_sky(FILE *file, const model_t *model)
 }
 
 /* Vertices that have a normal. */
-static uint32_t smooth_count(const model_t *model)
+static uint32_t count_smooth(const model_t *model)
 {
     uint32_t count = 0;
 
@@ -109,9 +109,9 @@ void print_info(FILE *file, const model_t *model)
             model->triangles_count - model->spheres_count);
     fprintf(file, "spheres: %" PRIu32 "\n", model->spheres_count);
     fprintf(file, "vertices: %" PRIu32 "\n", model->vertices_count);
-    fprintf(file, "smooth-vertices: %" PRIu32 "\n", smooth_count(model));
+    fprintf(file, "smooth-vertices: %" PRIu32 "\n", count_smooth(model));
     fprintf(file, "nodes: %" PRIu32 "\n", 2 * model_pair_count(model) + 1);
-    fprintf(file, "leaves: %" PRIu32 "\n", leaf_count(model));
+    fprintf(file, "leaves: %" PRIu32 "\n", count_leaves(model));
     fprintf(file, "depth: %u\n", (unsigned)h->depth);
     fprintf(file, "node-bits: %u\n", model_node_bits(model));
     print_lights(file, model);

@@ -599,6 +599,21 @@ expect a_quarter_of_a_lens_is_refused 2 "expected a 'pa' line" \
 (cat in/c.txt && echo 'da 0 0 0' && echo 'da 0 0 0') >in/d.txt
 expect a_lens_line_twice_is_refused 2 "expected one 'da'" \
     "$scene" in/d.txt -o out.qlb
+sed '/^du /d' in/c.txt >in/d.txt
+expect a_dump_without_du_is_refused 2 "expected a 'du' line before the end" \
+    "$scene" in/d.txt -o out.qlb
+awk '!/^n / || seen++' in/c.txt >in/d.txt
+expect half_a_pair_is_refused 2 "expected a 'n' line before the end" \
+    "$scene" in/d.txt -o out.qlb
+"$scene" "$scenes/cornell.scene" -o in/c8.qlb --node-bits 8 --quiet
+"$scene" --dump in/c8.qlb | awk '!/^n8/ || seen++' >in/d.txt
+line=$(grep -n '^p8' in/d.txt | sed -n '2s/:.*//p')
+expect a_pair_of_one_8_bit_node_is_refused 2 \
+    "in/d.txt:$line: expected a 'n8' line here, found 'p8'" \
+    "$scene" in/d.txt -o out.qlb
+sed 's/^features node16/features node8/' in/c.txt >in/d.txt
+expect nodes_of_the_wrong_width_are_refused 2 'expected pairs16 if and only' \
+    "$scene" in/d.txt -o out.qlb
 (cat in/c.txt && echo w) >in/d.txt
 expect a_dump_line_without_numbers_is_refused 2 'expected a word' \
     "$scene" in/d.txt -o out.qlb

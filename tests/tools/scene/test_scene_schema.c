@@ -55,6 +55,35 @@ TEST(every_byte_of_every_struct_has_one_row)
     }
 }
 
+/* How often a key begins a line in one struct. */
+static unsigned count_key(const blob_struct_t *s, const char *key)
+{
+    unsigned count = 0;
+
+    for (unsigned f = 0; f < s->field_count; f++) {
+        count += s->fields[f].key != NULL && strcmp(s->fields[f].key, key) == 0;
+    }
+    return count;
+}
+
+TEST(no_two_tables_share_a_key)
+{
+    for (int i = 0; i < BLOB_TABLE_COUNT; i++) {
+        const blob_struct_t *s = &blob_tables[i].entry;
+
+        for (unsigned f = 0; f < s->field_count; f++) {
+            const char *key = s->fields[f].key;
+
+            for (int other = 0; key != NULL && other < i; other++) {
+                CHECK(count_key(&blob_tables[other].entry, key) == 0, "%s",
+                        key);
+            }
+            CHECK(key == NULL || count_key(&blob_header.entry, key) == 0, "%s",
+                    key);
+        }
+    }
+}
+
 /* ---- to text and back ---- */
 
 /* Fill what a dump shows with random bits, signs and all. */
@@ -263,6 +292,7 @@ int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/scene_schema", argc, argv);
     RUN(every_byte_of_every_struct_has_one_row);
+    RUN(no_two_tables_share_a_key);
     RUN(any_numbers_of_any_table_come_back_from_a_dump);
     RUN(blob_md_has_every_field_where_it_is);
     RUN(blob_md_lists_the_optional_tables_in_their_order);

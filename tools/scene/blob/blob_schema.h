@@ -1,9 +1,10 @@
 /* blob_schema.h - every struct and table of a blob, described once */
 /* SPDX-License-Identifier: MIT */
 
-/* Who writes, reads, dumps or parses a blob walks these descriptions. A new
- * field is a field of its struct in ql_blob.h, a row here and a row of BLOB.md;
- * a missing or wrong row does not compile or fails a test. */
+/* Writing, reading, dumping and parsing a blob all walk these descriptions. A
+ * new field needs a member of its struct in ql_blob.h, a row in blob_schema.c
+ * and a row of BLOB.md. Without its row it does not compile; a test compares
+ * rows with BLOB.md. */
 
 #ifndef BLOB_SCHEMA_H
 #define BLOB_SCHEMA_H
@@ -14,8 +15,8 @@
 
 typedef ql_blob_node16_t blob_pair16_t[2];
 
-/* The tables in the order of the blob: name, entry, and features of which one
- * must be set for the table to be there; 0: it always is. */
+/* The tables in the order of the blob: name, entry, features. A table is there
+ * if one of its features is set, or if it has none. */
 #define BLOB_TABLE_LIST(X)                                                     \
     X(camera, ql_blob_camera_t, 0)                                             \
     X(vertices, ql_blob_vertex_t, 0)                                           \
@@ -33,7 +34,7 @@ enum {
             BLOB_TABLE_COUNT
 };
 
-/* Kinds of numbers: name, bytes. Hexadecimal ones are so in a dump only. */
+/* Kinds of numbers: name, bytes. An X says how a dump shows the number. */
 #define BLOB_KIND_LIST(X)                                                      \
     X(U8, 1)                                                                   \
     X(U16, 2)                                                                  \
@@ -51,8 +52,8 @@ typedef enum {
 #undef BLOB_KIND_ENUM
 } blob_kind_t;
 
-/* A field: count numbers in a row. A part of one, some bits of a number that a
- * dump shows by themselves, follows the row of the whole. */
+/* A field: count numbers in a row. Where a dump shows some bits of a number by
+ * themselves, a row of this part follows the row of the number. */
 typedef struct {
     const char *name; /* as in ql_blob.h */
     uint16_t offset;  /* bytes from the start of the struct */
@@ -61,7 +62,7 @@ typedef struct {
     uint8_t shift, bits; /* of a part; bits 0: not a part */
     uint8_t gap;         /* blanks before it in a dump; 0: not shown */
     const char *key;     /* begins a line of the dump; NULL: goes on with it */
-    const char *what;    /* it is called in messages */
+    const char *what;    /* its name in messages */
 } blob_field_t;
 
 /* A struct: fields in the order of a dump. */
@@ -78,11 +79,11 @@ typedef struct {
     unsigned per_line;  /* entries on a line of a dump */
     uint32_t count_min; /* entries, if the table is there */
     uint32_t count_max; /* 1: the lines of a dump may have any order */
-    uint32_t features;  /* as in the list above */
-    const char *title;  /* in a dump, behind the count if there are many */
+    uint32_t features;  /* as in BLOB_TABLE_LIST */
+    const char *title;  /* in a dump, after the count if there may be several */
 } blob_table_t;
 
-/* Where the places of tables begin, one for each that is there. */
+/* Where the places of the tables begin: one for each table that is there. */
 #define BLOB_PLACES_FROM offsetof(ql_blob_header_t, camera)
 
 extern const blob_struct_t blob_place; /* a ql_blob_table_t */
@@ -110,8 +111,8 @@ unsigned blob_field_bytes(const blob_field_t *field);
  */
 uint64_t blob_get(const blob_field_t *field, const void *from, unsigned i);
 
-/* Set number i of a field, or the part of it, to the low bits of value. The
- * rest of the number stays; from here on as for blob_get(). */
+/* Set number i of a field, or the part of it, to the low bits of value; the
+ * rest of the number stays. Parameters are those of blob_get(). */
 void blob_set(const blob_field_t *field, void *to, unsigned i, uint64_t value);
 
 #endif

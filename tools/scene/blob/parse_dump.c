@@ -34,7 +34,7 @@ bool is_dump(const text_t *text)
 /* ---- the lines of a struct ---- */
 
 /* The first field of a line of a struct. */
-static const blob_field_t *first_of(const blob_struct_t *s, unsigned line)
+static const blob_field_t *find_line(const blob_struct_t *s, unsigned line)
 {
     unsigned f = 0;
 
@@ -55,7 +55,7 @@ static unsigned count_lines(const blob_struct_t *s)
 }
 
 /* The first line that a part's last struct lacks; 0 if a new struct begins. */
-static unsigned next_line(const part_t *part)
+static unsigned find_next_line(const part_t *part)
 {
     unsigned line = 0;
 
@@ -170,11 +170,11 @@ static void take_line(
         part_t *part, text_t *text, unsigned line, const char *key)
 {
     const blob_struct_t *s = &part->table->entry;
-    const blob_field_t *first = first_of(s, line);
+    const blob_field_t *first = find_line(s, line);
 
     if (part->table->count_max > 1) {
-        line = next_line(part);
-        first = first_of(s, line);
+        line = find_next_line(part);
+        first = find_line(s, line);
         if (strcmp(first->key, key) != 0) {
             text_fail(text, "expected a '%s' line here, found '%s'", first->key,
                     key);
@@ -201,7 +201,7 @@ static void parse_line(parser_t *p, text_t *text)
         const unsigned count = count_lines(s);
 
         for (unsigned line = 0; line < count; line++) {
-            if (strcmp(key, first_of(s, line)->key) == 0) {
+            if (strcmp(key, find_line(s, line)->key) == 0) {
                 take_line(p->parts + i, text, line, key);
                 text_finish(text);
                 return;
@@ -220,7 +220,7 @@ static void check_part(const part_t *part, const text_t *text, bool needed)
     if (!is_between(part) || part->count % table->repeat != 0 ||
             (bad && table->features == 0)) {
         text_fail(text, "expected a '%s' line before the end of the file",
-                first_of(&table->entry, next_line(part))->key);
+                find_line(&table->entry, find_next_line(part))->key);
     }
     if (bad) {
         text_fail(text, "expected %s if and only if a feature needs them",

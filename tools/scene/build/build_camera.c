@@ -3,6 +3,8 @@
 
 #include "scene/build/build_camera.h"
 
+#include <stdlib.h>
+
 #include "lib/math/soft_vec.h"
 #include "lib/program/cli.h"
 
@@ -19,7 +21,7 @@ typedef struct {
     soft_vec_t rim[2], tilt[2];
 } frame_t;
 
-static frame_t frame_of(const world_t *world, const grid_t *grid)
+static frame_t make_frame(const world_t *world, const grid_t *grid)
 {
     const world_camera_t *camera = &world->camera;
     const soft_t tangent = soft_tan_half(soft_from(camera->fov));
@@ -50,16 +52,11 @@ static frame_t frame_of(const world_t *world, const grid_t *grid)
 }
 
 /* The widest picture to allow for, as a multiple of its height. */
-static int64_t aspect_of(const world_t *world)
+static int64_t choose_aspect(const world_t *world)
 {
     const int64_t aspect = (world->width + world->height - 1) / world->height;
 
     return aspect > ASPECT_LEAST ? aspect : ASPECT_LEAST;
-}
-
-static int64_t size_of(int64_t x)
-{
-    return x < 0 ? -x : x;
 }
 
 /* Round the directions at 2^bits; true if their sums stay in bounds. */
@@ -77,9 +74,9 @@ static bool round_directions(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
         const int64_t limit = (int64_t)1 << DIRECTION_BITS;
 
         /* each below 2^46 by the range of bits tried and of tan */
-        fits = fits && size_of(dr) < limit && size_of(du) < limit &&
-               size_of(d) + aspect * size_of(dr) + size_of(du) + size_of(da) +
-                               size_of(db) <
+        fits = fits && llabs(dr) < limit && llabs(du) < limit &&
+               llabs(d) + aspect * llabs(dr) + llabs(du) + llabs(da) +
+                               llabs(db) <
                        limit;
         camera->d[k] = (uint32_t)(uint64_t)d;
         camera->dr[k] = (uint32_t)(uint64_t)dr;
@@ -97,7 +94,7 @@ static void put_wide(uint32_t words[2], int64_t value)
 }
 
 /* The eye in grid units. */
-static soft_vec_t eye_on_grid(const world_t *world, const grid_t *grid)
+static soft_vec_t find_eye(const world_t *world, const grid_t *grid)
 {
     soft_vec_t eye;
 
@@ -112,8 +109,7 @@ static soft_vec_t eye_on_grid(const world_t *world, const grid_t *grid)
 
 /* Depth of the nearest corner of the box and its margin; 0 if none is before
  * the eye or the scene is empty. */
-static soft_t nearest_depth(
-        const grid_t *grid, soft_vec_t eye, soft_vec_t forward)
+static soft_t find_depth(const grid_t *grid, soft_vec_t eye, soft_vec_t forward)
 {
     soft_t nearest = soft_int(0, 0);
 
@@ -148,7 +144,7 @@ camera_fail(const world_t *world, const char *expected)
             expected);
 }
 
-static soft_t absolute(soft_t a)
+static soft_t drop_sign(soft_t a)
 {
     a.negative = false;
     return a;
@@ -165,12 +161,12 @@ static void check_reach(
     const soft_t limit = soft_int(REACH_MAX, 0);
 
     for (int k = 0; k < 3; k++) {
-        soft_t reach = soft_mul(absolute(o->pr.k[k]), soft_int(aspect, 0));
+        soft_t reach = soft_mul(drop_sign(o->pr.k[k]), soft_int(aspect, 0));
 
-        reach = soft_add(reach, absolute(o->pu.k[k]));
-        reach = soft_add(reach, absolute(o->p.k[k]));
-        reach = soft_add(reach, absolute(o->rim[0].k[k]));
-        reach = soft_add(reach, absolute(o->rim[1].k[k]));
+        reach = soft_add(reach, drop_sign(o->pu.k[k]));
+        reach = soft_add(reach, drop_sign(o->p.k[k]));
+        reach = soft_add(reach, drop_sign(o->rim[0].k[k]));
+        reach = soft_add(reach, drop_sign(o->rim[1].k[k]));
         if (soft_compare(reach, limit) >= 0) {
             camera_fail(world, "a picture at most 2^15 times as large as "
                                "the scene in it: move the camera nearer");
@@ -183,9 +179,9 @@ static void check_eye(const world_t *world, const origins_t *o)
 {
     for (int k = 0; k < 3; k++) {
         const soft_t rim =
-                soft_add(absolute(o->rim[0].k[k]), absolute(o->rim[1].k[k]));
+                soft_add(drop_sign(o->rim[0].k[k]), drop_sign(o->rim[1].k[k]));
 
-        if (soft_round(soft_add(absolute(o->p.k[k]), rim), 0) > EYE_MAX) {
+        if (soft_round(soft_add(drop_sign(o->p.k[k]), rim), 0) > EYE_MAX) {
             camera_fail(world, "an eye beside the scene at most 32 times its "
                                "size away: move it nearer");
         }
@@ -208,7 +204,7 @@ static void check_lens(const world_t *world)
 
 /* On the plane at depth, on which every ray begins: the point of the pinhole's
  * ray, moved by the lens as much as is left there of where it is at the eye. */
-static origins_t origins_at(const world_t *world, const grid_t *grid,
+static origins_t find_origins(const world_t *world, const grid_t *grid,
         const frame_t *frame, soft_vec_t eye, soft_t depth)
 {
     const soft_t far = soft_div(
@@ -229,11 +225,11 @@ static origins_t origins_at(const world_t *world, const grid_t *grid,
 void build_camera(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
         const world_t *world, const grid_t *grid)
 {
-    const frame_t frame = frame_of(world, grid);
-    const int64_t aspect = aspect_of(world);
-    const soft_vec_t eye = eye_on_grid(world, grid);
-    const soft_t depth = nearest_depth(grid, eye, frame.forward);
-    const origins_t o = origins_at(world, grid, &frame, eye, depth);
+    const frame_t frame = make_frame(world, grid);
+    const int64_t aspect = choose_aspect(world);
+    const soft_vec_t eye = find_eye(world, grid);
+    const soft_t depth = find_depth(grid, eye, frame.forward);
+    const origins_t o = find_origins(world, grid, &frame, eye, depth);
     int bits = DIRECTION_BITS;
 
     check_lens(world);

@@ -10,7 +10,7 @@
 #include "lib/program/cli.h"
 
 /* Radiance units of all channels of an entry's material; < 2^34. */
-static uint64_t emission_of(const model_t *model, uint32_t tri)
+static uint64_t sum_emission(const model_t *model, uint32_t tri)
 {
     const ql_blob_material_t *material =
             model->materials + (model->triangles[tri].material & 0x3fffu);
@@ -20,7 +20,7 @@ static uint64_t emission_of(const model_t *model, uint32_t tri)
 }
 
 /* Twice the area with 32 fraction bits, below 2^63, times the emission. */
-static u128_t power_of_triangle(
+static u128_t weigh_triangle(
         const grid_t *grid, const grid_face_t *face, uint64_t emission)
 {
     u128_t square = {0, 0};
@@ -32,7 +32,7 @@ static u128_t power_of_triangle(
 }
 
 /* The same of a sphere: 8 pi R^2 2^32 of R in 1/256 units, below 2^65. */
-static u128_t power_of_sphere(const ql_blob_sphere_t *sphere, uint64_t emission)
+static u128_t weigh_sphere(const ql_blob_sphere_t *sphere, uint64_t emission)
 {
     const int64_t square = (int64_t)sphere->radius * sphere->radius;
     const soft_t area = soft_mul(soft_int(square, 3 - 16 + 32), soft_pi());
@@ -42,7 +42,7 @@ static u128_t power_of_sphere(const ql_blob_sphere_t *sphere, uint64_t emission)
 
 /* Of the sky: 8 pi Rs^2 2^32 = 2 pi D^2 2^32 of the diagonal D, below 2^67,
  * times its mean. */
-static u128_t power_of_sky(const model_t *model, const grid_t *grid)
+static u128_t weigh_sky(const model_t *model, const grid_t *grid)
 {
     int64_t square = 0;
     soft_t area;
@@ -57,16 +57,15 @@ static u128_t power_of_sky(const model_t *model, const grid_t *grid)
     return soft_floor(soft_mul(area, build_sky_mean(model)));
 }
 
-static u128_t power_of(const model_t *model, const grid_t *grid,
+static u128_t weigh_face(const model_t *model, const grid_t *grid,
         const grid_face_t *face, uint64_t emission)
 {
     return face->sphere != 0
-                   ? power_of_sphere(
-                             model->spheres + face->sphere - 1, emission)
-                   : power_of_triangle(grid, face, emission);
+                   ? weigh_sphere(model->spheres + face->sphere - 1, emission)
+                   : weigh_triangle(grid, face, emission);
 }
 
-static void choose_by(model_t *model, const u128_t *power)
+static void set_chances(model_t *model, const u128_t *power)
 {
     uint64_t *shares = cli_alloc(model->lights_count, sizeof *shares);
     uint64_t sum = 0;
@@ -92,16 +91,16 @@ void build_lights(
 
     model->lights = cli_alloc(room, sizeof *model->lights);
     for (uint32_t i = 0; i < model->triangles_count; i++) {
-        const uint64_t emission = emission_of(model, i);
+        const uint64_t emission = sum_emission(model, i);
 
         if (emission > 0) {
-            power[model->lights_count] = power_of(
+            power[model->lights_count] = weigh_face(
                     model, grid, grid->faces + bvh->order[i], emission);
             model->lights[model->lights_count++].triangle = (uint16_t)i;
         }
     }
     if (model->sky_count > 0) {
-        power[model->lights_count] = power_of_sky(model, grid);
+        power[model->lights_count] = weigh_sky(model, grid);
         model->lights[model->lights_count++].triangle = QL_LIGHT_SKY;
     }
     if (model->lights_count > QL_LIGHT_MAX) {
@@ -110,6 +109,6 @@ void build_lights(
                 path, (unsigned long)QL_LIGHT_MAX,
                 (unsigned long)model->lights_count);
     }
-    choose_by(model, power);
+    set_chances(model, power);
     free(power);
 }

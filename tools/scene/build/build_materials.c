@@ -17,7 +17,7 @@
 /* ---- what one reflects ---- */
 
 /* 0..1 to u1.31. */
-static uint32_t fraction(soft_t x)
+static uint32_t round_fraction(soft_t x)
 {
     return (uint32_t)soft_round(x, 31);
 }
@@ -26,7 +26,7 @@ static void round_glass(
         ql_blob_gloss_t *gloss, const world_material_t *material)
 {
     for (int k = 0; k < 3; k++) {
-        gloss->specular[k] = fraction(soft_from(material->filter[k]));
+        gloss->specular[k] = round_fraction(soft_from(material->filter[k]));
     }
     /* 1/16..64 is 2^12..2^22 */
     gloss->parameter = (uint32_t)soft_round(soft_from(material->ni), 16);
@@ -35,7 +35,8 @@ static void round_glass(
 }
 
 /* s / (d + s) of the sums of channels, to nearest; an end only if it is one. */
-static uint32_t chance_of(const uint32_t albedo[3], const uint32_t specular[3])
+static uint32_t find_chance(
+        const uint32_t albedo[3], const uint32_t specular[3])
 {
     const uint64_t s = (uint64_t)specular[0] + specular[1] + specular[2];
     const uint64_t d = (uint64_t)albedo[0] + albedo[1] + albedo[2];
@@ -63,11 +64,11 @@ bool build_materials_round(uint32_t albedo[3], ql_blob_gloss_t *gloss,
         return true;
     }
     for (int k = 0; k < 3; k++) {
-        albedo[k] = fraction(soft_mul(soft_from(material->kd[k]), scale));
+        albedo[k] = round_fraction(soft_mul(soft_from(material->kd[k]), scale));
         if (beyond) {
             const uint32_t room = ONE - albedo[k];
             const uint32_t ks =
-                    fraction(soft_mul(soft_from(material->ks[k]), scale));
+                    round_fraction(soft_mul(soft_from(material->ks[k]), scale));
 
             gloss->specular[k] = ks < room ? ks : room; /* both rounded up */
         }
@@ -76,7 +77,7 @@ bool build_materials_round(uint32_t albedo[3], ql_blob_gloss_t *gloss,
         return false;
     }
     gloss->kind = (uint16_t)material->kind;
-    gloss->chance = chance_of(albedo, gloss->specular);
+    gloss->chance = find_chance(albedo, gloss->specular);
     if (material->kind == QL_GLOSS_PHONG) {
         /* 0..65535 is below 2^32 */
         gloss->parameter = (uint32_t)soft_round(soft_from(material->ns), 16);
@@ -87,7 +88,7 @@ bool build_materials_round(uint32_t albedo[3], ql_blob_gloss_t *gloss,
 /* ---- those in use ---- */
 
 /* Smallest exponent for which every Ke and the sky fit u0.32; 0 without any. */
-static int radiance_exponent(const world_t *world, const bool *used)
+static int choose_exponent(const world_t *world, const bool *used)
 {
     soft_t most = build_sky_most(&world->sky);
     int e = -RADIANCE_EXP_MAX;
@@ -154,7 +155,7 @@ void build_materials(model_t *model, const world_t *world, const grid_t *grid,
     for (uint32_t i = 0; i < grid->face_count; i++) {
         used[grid->faces[i].material] = true;
     }
-    model->header.radiance_exp = (int16_t)radiance_exponent(world, used);
+    model->header.radiance_exp = (int16_t)choose_exponent(world, used);
     model->materials = cli_alloc(count, sizeof *model->materials);
     model->gloss = cli_alloc(count, sizeof *model->gloss);
     place_kind(model, world, used, place, true);

@@ -33,7 +33,7 @@ soft_t build_sky_most(const world_sky_t *sky)
 /* ---- a map ---- */
 
 /* Channels of a texel in u0.32 radiance units. */
-static void texel_channels(ql_blob_texel_t texel, uint32_t channels[3])
+static void unpack_texel(ql_blob_texel_t texel, uint32_t channels[3])
 {
     for (unsigned k = 0; k < 3; k++) {
         channels[k] = (texel.rgb9e5 >> TEXEL_BITS * k & TEXEL_MOST)
@@ -70,7 +70,7 @@ static ql_blob_texel_t round_texel(const float *rgb, int radiance_exp)
 
 /* sin(theta) at the middle of a row: the solid angle of a texel is that times
  * 4 pi sin(pi / 2h) / w. An integer, so that every host has the same. */
-static int64_t row_sine(uint32_t row, uint32_t height)
+static int64_t find_sine(uint32_t row, uint32_t height)
 {
     const soft_t x =
             soft_div(soft_int(2 * (int64_t)row + 1, -1), soft_int(height, 0));
@@ -80,7 +80,7 @@ static int64_t row_sine(uint32_t row, uint32_t height)
 
 /* What a texel sends: the sum of its channels times the sine of its row. The
  * sum is 11 bits times a power of two, the sine 41: no double rounds it. */
-static double texel_weight(ql_blob_texel_t texel, int64_t sine)
+static double weigh_texel(ql_blob_texel_t texel, int64_t sine)
 {
     uint32_t sum = 0;
 
@@ -101,12 +101,12 @@ static void build_map(model_t *model, const world_t *world)
     model->texels = cli_alloc(n, sizeof *model->texels);
     model->texels_count = n;
     for (uint32_t y = 0; y < sky->height; y++) {
-        const int64_t sine = row_sine(y, sky->height);
+        const int64_t sine = find_sine(y, sky->height);
 
         for (uint32_t i = y * sky->width; i < (y + 1) * sky->width; i++) {
             model->texels[i] = round_texel(
                     sky->map + 3 * (size_t)i, model->header.radiance_exp);
-            weights[i] = texel_weight(model->texels[i], sine);
+            weights[i] = weigh_texel(model->texels[i], sine);
             black = black && weights[i] == 0;
         }
     }
@@ -152,7 +152,7 @@ void build_sky(model_t *model, const world_t *world)
     }
 }
 
-static soft_t sum_of(const uint32_t channels[3])
+static soft_t sum_channels(const uint32_t channels[3])
 {
     return soft_int(
             (int64_t)((uint64_t)channels[0] + channels[1] + channels[2]), 0);
@@ -164,17 +164,17 @@ soft_t build_sky_mean(const model_t *model)
     soft_t sum = soft_int(0, 0), angle = soft_int(0, 0);
 
     if (width == 0) {
-        return sum_of(model->sky->emission);
+        return sum_channels(model->sky->emission);
     }
     for (uint32_t y = 0; y < height; y++) {
-        const soft_t sine = soft_int(row_sine(y, height), 0);
+        const soft_t sine = soft_int(find_sine(y, height), 0);
         soft_t row = soft_int(0, 0);
 
         for (uint32_t i = y * width; i < (y + 1) * width; i++) {
             uint32_t channels[3];
 
-            texel_channels(model->texels[i], channels);
-            row = soft_add(row, sum_of(channels));
+            unpack_texel(model->texels[i], channels);
+            row = soft_add(row, sum_channels(channels));
         }
         sum = soft_add(sum, soft_mul(row, sine));
         angle = soft_add(angle, sine);

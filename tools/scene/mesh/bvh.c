@@ -35,13 +35,13 @@ typedef struct {
     int axis;
 } split_t;
 
-static void box_empty(box_t *box)
+static void empty_box(box_t *box)
 {
     memset(box->low, 0xff, sizeof box->low);
     memset(box->high, 0, sizeof box->high);
 }
 
-static void box_add(box_t *box, const box_t *other)
+static void extend_box(box_t *box, const box_t *other)
 {
     for (int k = 0; k < 3; k++) {
         if (other->low[k] < box->low[k]) {
@@ -54,7 +54,7 @@ static void box_add(box_t *box, const box_t *other)
 }
 
 /* Half the surface of the grid cells of a box, so that none is 0; < 2^32. */
-static uint64_t box_area(const box_t *box)
+static uint64_t measure_box(const box_t *box)
 {
     uint64_t s[3];
 
@@ -64,7 +64,7 @@ static uint64_t box_area(const box_t *box)
     return s[0] * s[1] + s[1] * s[2] + s[2] * s[0];
 }
 
-static box_t box_of_face(const grid_t *grid, const grid_face_t *face)
+static box_t find_box(const grid_t *grid, const grid_face_t *face)
 {
     box_t box;
 
@@ -106,7 +106,7 @@ static void sort_axis(builder_t *b, int axis)
 }
 
 /* Faces that fit below a node with this many levels below it; < 2^36. */
-static uint64_t room(const builder_t *b, unsigned levels)
+static uint64_t count_room(const builder_t *b, unsigned levels)
 {
     return (uint64_t)b->leaf_max << levels;
 }
@@ -118,20 +118,20 @@ static void sweep(const builder_t *b, int axis, uint32_t first, uint32_t n,
     const uint32_t *faces = b->sorted[axis] + first;
     box_t box;
 
-    box_empty(&box);
+    empty_box(&box);
     for (uint32_t i = 0; i < n; i++) {
-        box_add(&box, b->boxes + faces[i]);
-        b->lower_area[i] = box_area(&box);
+        extend_box(&box, b->boxes + faces[i]);
+        b->lower_area[i] = measure_box(&box);
     }
-    box_empty(&box);
+    empty_box(&box);
     for (uint32_t i = n - 1; i > 0; i--) {
         const uint32_t upper = n - i;
         split_t split;
 
         /* area < 2^32, count < 2^16, cost of a triangle < 2^12 */
-        box_add(&box, b->boxes + faces[i]);
+        extend_box(&box, b->boxes + faces[i]);
         split.cost = b->cost->triangle *
-                     (b->lower_area[i - 1] * i + box_area(&box) * upper);
+                     (b->lower_area[i - 1] * i + measure_box(&box) * upper);
         split.count = i;
         split.imbalance = i > upper ? i - upper : upper - i;
         split.axis = axis;
@@ -189,18 +189,18 @@ static void build(builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n,
     uint32_t pair;
     box_t box;
 
-    box_empty(&box);
+    empty_box(&box);
     for (uint32_t i = 0; i < n; i++) {
-        box_add(&box, b->boxes + b->sorted[0][first + i]);
+        extend_box(&box, b->boxes + b->sorted[0][first + i]);
     }
     memcpy(node->low, box.low, sizeof node->low);
     memcpy(node->high, box.high, sizeof node->high);
-    area = box_area(&box);
+    area = measure_box(&box);
     if (depth > b->bvh->depth) {
         b->bvh->depth = depth;
     }
     for (int k = 0; k < 3 && n > 1 && levels > 0; k++) {
-        sweep(b, k, first, n, room(b, levels - 1), &best);
+        sweep(b, k, first, n, count_room(b, levels - 1), &best);
     }
     if (n <= b->leaf_max &&
             (best.count == 0 || b->cost->triangle * area * n <=
@@ -235,7 +235,7 @@ void bvh_build(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
     b.is_upper = cli_alloc(n, sizeof *b.is_upper);
     bvh->pairs = cli_alloc(n, sizeof *bvh->pairs);
     for (uint32_t i = 0; i < n; i++) {
-        b.boxes[i] = box_of_face(grid, grid->faces + i);
+        b.boxes[i] = find_box(grid, grid->faces + i);
     }
     for (int k = 0; k < 3; k++) {
         b.sorted[k] = cli_alloc(n, sizeof *b.sorted[k]);

@@ -12,7 +12,7 @@
 
 #define NONE UINT32_MAX
 
-static bool same_point(const world_t *world, uint32_t a, uint32_t b)
+static bool is_same_point(const world_t *world, uint32_t a, uint32_t b)
 {
     const double *p = world->vertices[a], *q = world->vertices[b];
 
@@ -24,8 +24,8 @@ static bool is_flat(const world_t *world, const world_face_t *face)
 {
     const uint32_t *v = face->vertex;
 
-    return same_point(world, v[0], v[1]) || same_point(world, v[1], v[2]) ||
-           same_point(world, v[2], v[0]);
+    return is_same_point(world, v[0], v[1]) ||
+           is_same_point(world, v[1], v[2]) || is_same_point(world, v[2], v[0]);
 }
 
 /* Box of the world, exact. */

@@ -23,7 +23,8 @@ void nodes_encode16(ql_blob_node16_t *out, const bvh_node_t *node)
 
 /* Steps of 2^shift from centre that reach both ends; too many for a byte or
  * for the limit of half a box give -1. */
-static int half_steps(const bvh_node_t *node, int k, int centre, int shift)
+static int count_half_steps(
+        const bvh_node_t *node, int k, int centre, int shift)
 {
     const int below = centre - node->low[k], above = node->high[k] - centre;
     const int reach = below > above ? below : above;
@@ -46,10 +47,10 @@ static int place_upper(axis_t *axis, const bvh_node_t *lower,
     const int guess = centre > axis->base ? (centre - axis->base) >> shift : 0;
     int best = -1;
 
-    axis->half_lower = half_steps(lower, k, axis->base, shift);
+    axis->half_lower = count_half_steps(lower, k, axis->base, shift);
     for (int away = guess; away <= guess + 1 && away <= 255; away++) {
         const int at = axis->base + (away << shift);
-        const int half = half_steps(upper, k, at, shift);
+        const int half = count_half_steps(upper, k, at, shift);
 
         if (axis->half_lower >= 0 && half >= 0 && at <= QL_GRID_MAX &&
                 (best < 0 || axis->half_lower + half < best)) {

@@ -94,7 +94,7 @@ static bool read_index(char **at, long *index)
 }
 
 /* The world's index of a corner's vertex. */
-static uint32_t vertex_of(reader_t *reader, long v)
+static uint32_t find_vertex(reader_t *reader, long v)
 {
     const int64_t count =
             (int64_t)(reader->world->vertex_count - reader->first_vertex);
@@ -116,7 +116,7 @@ static uint32_t vertex_of(reader_t *reader, long v)
 
 /* 1 + the world's index of a corner's normal, 0 for none. It may come later, or
  * never: resolve_normals() sees to that. */
-static uint32_t normal_of(const reader_t *reader, long n)
+static uint32_t find_normal(const reader_t *reader, long n)
 {
     const int64_t count =
             (int64_t)(reader->world->normal_count - reader->first_normal);
@@ -152,8 +152,8 @@ static corner_t read_corner(reader_t *reader, char *word)
                 "with no index 0, found '%s'",
                 word);
     }
-    corner.vertex = vertex_of(reader, v);
-    corner.normal = normal_of(reader, n);
+    corner.vertex = find_vertex(reader, v);
+    corner.normal = find_normal(reader, n);
     return corner;
 }
 
@@ -213,7 +213,7 @@ static void read_usemtl(reader_t *reader)
     add_used(reader, name);
 }
 
-static bool exists(const char *path)
+static bool is_readable(const char *path)
 {
     FILE *file = fopen(path, "rb");
 
@@ -229,7 +229,7 @@ static void read_library(reader_t *reader, const char *name)
     char *path = text_beside(reader->text.path, name);
 
     if (names_add(&reader->reported, path)) {
-        if (exists(path)) {
+        if (is_readable(path)) {
             read_mtl(reader->world, path);
         } else {
             cli_warn("%s:%u: cannot read '%s'; its materials are grey 0.5",
@@ -249,7 +249,7 @@ static void read_mtllib(reader_t *reader)
         text_fail(&reader->text, "expected mtllib FILE.mtl");
     }
     path = text_beside(reader->text.path, reader->text.rest);
-    whole = exists(path);
+    whole = is_readable(path);
     free(path);
     if (whole) {
         read_library(reader, text_rest(&reader->text));

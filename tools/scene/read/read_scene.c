@@ -146,7 +146,7 @@ static void read_lights(text_t *text, world_t *world)
 }
 
 /* The path of a file that the scene names; fails if it cannot be read. */
-static char *path_of(const text_t *text, const char *what, const char *name)
+static char *find_path(const text_t *text, const char *what, const char *name)
 {
     char *path = text_beside(text->path, name);
     FILE *file = fopen(path, "rb");
@@ -167,7 +167,7 @@ static void read_mesh(text_t *text, world_t *world)
     if (name == NULL) {
         text_fail(text, "expected mesh FILE.obj");
     }
-    path = path_of(text, "mesh", name);
+    path = find_path(text, "mesh", name);
     read_obj(world, path);
     free(path);
 }
@@ -180,7 +180,7 @@ static void read_table_file(text_t *text, world_t *world)
     if (name == NULL) {
         text_fail(text, "expected table FILE");
     }
-    path = path_of(text, "table", name);
+    path = find_path(text, "table", name);
     read_table(world, path);
     free(path);
 }
@@ -237,7 +237,7 @@ static void read_colour(text_t *text, world_sky_t *sky)
 
 static void read_map(text_t *text, world_sky_t *sky)
 {
-    char *path = path_of(text, "sky", text_word(text));
+    char *path = find_path(text, "sky", text_word(text));
     const char *word = text_word(text);
 
     if (word != NULL) {

@@ -47,7 +47,7 @@ void text_close(text_t *text)
 }
 
 /* Where the comment of a physical line begins, or its end. */
-static char *comment_start(char *line, char *end)
+static char *find_comment(char *line, char *end)
 {
     for (char *c = line; c < end; c++) {
         if (*c == '#' && (c == line || is_blank(c[-1]))) {
@@ -64,7 +64,7 @@ static bool take_line(text_t *text)
     char *const start = text->next;
     char *end = start + strcspn(start, "\r\n");
     char *after = end;
-    char *comment = comment_start(start, end);
+    char *comment = find_comment(start, end);
 
     if (*after == '\r' && after[1] == '\n') {
         *after++ = ' ';

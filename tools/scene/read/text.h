@@ -41,7 +41,8 @@ char *text_rest(text_t *text);
 /* The next word as a finite number. Fails naming what was expected. */
 double text_number(text_t *text, const char *what);
 
-/* The next word as an integer in [min, max], decimal or 0x. Likewise. */
+/* The next word as an integer in [min, max], decimal or 0x. Fails as
+ * text_number() does. */
 int64_t text_integer(text_t *text, const char *what, int64_t min, int64_t max);
 
 /* Fail unless the line is at its end. */
