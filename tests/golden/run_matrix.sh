@@ -25,32 +25,30 @@ nearest='-DQL_CFG_TABLE_BITS=5 -DQL_CFG_TABLE_LERP=0'
 lerp='-DQL_CFG_TABLE_BITS=10 -DQL_CFG_TABLE_LERP=1'
 
 mkdir -p "$out"
-for bits in 16 8; do
-    "$built/qlux-scene" tests/scenes/cornell.scene -o "$out/cornell$bits.qlb" \
-        --node-bits "$bits" --quiet || exit 1
-done
-# one scene for each feature, and what they are called
-cornell="$out/cornell16.qlb $out/cornell8.qlb"
-blobs=$cornell
-for scene in glossy sky lens smooth strategies; do
-    "$built/qlux-scene" "tests/scenes/$scene.scene" -o "$out/$scene.qlb" \
-        --quiet 2> "$out/$scene.log" || exit 1
-    blobs="$blobs $out/$scene.qlb"
+tests/golden/scenes.sh "$built/qlux-scene" "$out" || exit 1
+# The Cornell box with nodes of both widths, then a scene for each feature; of
+# other tables the small scenes will do.
+cornell="$out/16/cornell.qlb $out/8/cornell.qlb"
+small=$(ls "$out"/16/corner-*.qlb | tr '\n' ' ')
+few="$cornell $small"
+blobs=$few
+for scene in square glossy sky lens smooth strategies; do
+    blobs="$blobs $out/16/$scene.qlb"
 done
 
 # build NAME COMPILER FLAGS: build/golden/NAME
 build()
 {
     # shellcheck disable=SC2086  # COMPILER and FLAGS are lists of words
-    $2 $warn $3 -Ifirmware -Ihal $core tests/golden/golden.c \
+    $2 $warn $3 -Ifirmware -Ihal -Itests $core tests/golden/golden.c \
         -o "$out/$1"
 }
 
-# run NAME RUNNER MODE: of other tables the Cornell box will do
+# run NAME RUNNER MODE
 run()
 {
     case $1 in
-    *-nearest-* | *-lerp-*) set -- "$@" "$cornell" ;;
+    *-nearest-* | *-lerp-*) set -- "$@" "$few" ;;
     *) set -- "$@" "$blobs" ;;
     esac
     # shellcheck disable=SC2086
@@ -82,15 +80,13 @@ config()
 
 if [ "$only" = --update ]; then
     for number in 0 1; do
-        for name in update update-nearest-5 update-lerp-10; do
-            case $name in
-            *-nearest-5) tables=$nearest ;;
-            *-lerp-10) tables=$lerp ;;
-            *) tables= ;;
-            esac
-            build "$name-" "${CC:-cc}" \
-                "-O2 -DQL_CFG_PRECISION=$number $tables" &&
-                run "$name-" '' update || exit 1
+        for tables in 7-1 5-0 5-1 6-0 6-1 7-0 8-0 8-1 9-0 9-1 10-0 10-1; do
+            name=update-$(echo $tables | sed 's/\(.*\)-0/nearest-\1/
+                s/^7-1$/all/; s/\(.*\)-1$/lerp-\1/')-
+            build "$name" "${CC:-cc}" "-O2 -DQL_CFG_PRECISION=$number \
+                -DQL_CFG_TABLE_BITS=${tables%-*} \
+                -DQL_CFG_TABLE_LERP=${tables#*-}" &&
+                run "$name" '' update || exit 1
         done
     done
     echo "$sums: $(wc -l < "$sums") checksums"
