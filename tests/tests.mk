@@ -88,6 +88,8 @@ jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
     tools/ref|tests/tools/test_ref.sh; \
     tools/recv|tests/tools/test_recv.sh;
 jobs_lint := lint/layers|tests/lint/check_layers.sh; \
+    lint/circles|tests/lint/check_circles.sh; \
+    lint/shape|tests/lint/check_shape.sh; \
     lint/docs|tests/lint/check_docs.sh; lint/format|tests/lint/check_format.sh;
 jobs_boards := boards|tests/boards/test_boards.sh; \
     tools/trade|tests/tools/test_trade.sh; \

@@ -21,7 +21,8 @@ cksum "$@" | awk -v built="$built/test/" '
         suite = substr(name, length(config) + 2)
         key = suite " " $1 " " $2
         if (key in first) {
-            printf "%s|cmp %s%s/%s %s && echo %s is_the_program_of_%s ok;\n",
+            printf "%s|cmp %s%s/%s %s && " \
+                "echo %s is_the_program_of_%s ok;\n",
                 name, built, first[key], suite, $3, suite, first[key]
         } else {
             first[key] = config

@@ -56,7 +56,8 @@ bad=$(for f in firmware/*.h firmware/*/*.h hal/ql_hal.h; do
         inside { comment = comment $0 "\n" }
         /\*\/ *$/ { inside = 0; next }
         inside { next }
-        /^[a-zA-Z].*\(/ && !/^(typedef|#|QL_INLINE|QL_FAST|QL_CLZ|QL_FX|static|QL_STATIC)/ {
+        /^[a-zA-Z].*\(/ &&
+                !/^(typedef|QL_(INLINE|FAST|CLZ|FX|STATIC)|static)/ {
             text = ""; collecting = 1
         }
         collecting { text = text " " $0 }

@@ -1,11 +1,12 @@
 #!/bin/sh
-# check_layers.sh - who may include whom: base, math, .. render, app
+# check_layers.sh - who may include whom: layers of the core, hal, sim, tools
 # SPDX-License-Identifier: MIT
 #
 # usage: tests/lint/check_layers.sh
 #
 # A file of a layer includes its own layer and those to its left; the core never
 # includes hal/, a file outside it or a libc header but the freestanding ones.
+# The rest of the tree keeps to the table below; tests/ may include anything.
 # Prints one claim a rule; exit 1 if any is broken.
 #
 # Example: tests/lint/check_layers.sh
@@ -41,5 +42,35 @@ bad=$(grep -nE '\b(float|double|malloc|calloc|realloc|free)\b' \
     firmware/*.[ch] firmware/*/*.[ch] |
     grep -vE ':[0-9]+:[[:space:]]*(\*|/\*|//)')
 say_none the_core_names_no_floating_point_type_and_no_heap "$bad"
+
+# Folder, and what its files may include beside files of that folder.
+rules='
+firmware/app/  ^firmware/|^hal/ql_hal.h
+firmware/      ^firmware/
+hal/           ^firmware/(base|app)/|^firmware/[^/]*$
+sim/           ^firmware/|^hal/ql_hal.h|^tools/lib/
+tools/lib/     ^firmware/
+tools/figure/  ^firmware/|^tools/lib/
+tools/[^/]*/   ^firmware/|^tools/lib/|^tools/figure/
+tests/         .
+'
+# shellcheck disable=SC2046  # no name has a space
+bad=$(awk -f tests/lint/includes.awk $(git ls-files '*.c' '*.h') |
+    awk -v rules="$rules" '
+        BEGIN {
+            n = split(rules, row, "\n")
+            for (i = 2; i < n; i++) {
+                split(row[i], part, " ")
+                folder[i] = "^" part[1]
+                may[i] = part[2]
+            }
+        }
+        {
+            for (i = 2; i < n && $1 !~ folder[i]; i++) continue
+            own = i < n && match($1, folder[i]) ? substr($1, 1, RLENGTH) : "?"
+            if (i == n || index($2, own) != 1 && $2 !~ may[i])
+                print $1 "->" $2
+        }')
+say_none every_folder_includes_only_what_it_may "$bad"
 
 exit $((failures > 0))

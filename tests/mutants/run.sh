@@ -99,7 +99,8 @@ plant()
 # What may see a header of the core: itself and what tests share.
 seeing()
 {
-    ls firmware/*/*.c tests/support/*.c tests/support/*/*.c tools/scene/*.c tools/scene/*/*.c
+    ls firmware/*/*.c tests/support/*.c tests/support/*/*.c \
+        tools/scene/*.c tools/scene/*/*.c
 }
 
 # NAME: the sources that its file is part of; of a header also the tests named.
@@ -153,7 +154,8 @@ make_mutant()
         from=$source
         [ "$source" = "$file" ] && from=$dir/$file
         if ! compile "$build" "$from" "$object" "$dir" 2> "$dir/errors"; then
-            say_as "mutants/$1" compiles FAIL "$(grep error: "$dir/errors" | head -n 1)"
+            say_as "mutants/$1" compiles FAIL \
+                "$(grep error: "$dir/errors" | head -n 1)"
             return 1
         fi
         cmp -s "$object" "$work/base/$build/${source%.c}.o"
@@ -314,7 +316,8 @@ print_list()
 listed()
 {
     bad=$(names | sort | uniq -d)
-    say_as mutants/list names_are_unique "$([ -z "$bad" ] && echo ok || echo FAIL)" "$bad"
+    suite=mutants/list
+    say_none names_are_unique "$bad"
     print_list > "$work/list"
     if awk '/^\| mutant /{ on = 1 } on && /^\|/' $readme |
         cmp -s - "$work/list"; then
@@ -330,7 +333,8 @@ check()
     identity
     bad=$(names | each --check-one)
     if [ -z "$bad" ]; then
-        say_as mutants/check every_fault_applies_once_compiles_and_changes_the_code ok \
+        say_as mutants/check \
+            every_fault_applies_once_compiles_and_changes_the_code ok \
             "$(names | wc -l) mutants"
     else
         echo "$bad"
@@ -359,8 +363,8 @@ run()
     identity
     killers "$@" | each --base > "$work/base/failed"
     cat "$work/base/failed"
-    [ -s "$work/base/failed" ] || say_as mutants/base tests_named_pass_without_a_fault ok \
-        "$(killers "$@" | wc -l) tests"
+    [ -s "$work/base/failed" ] ||
+        say_as mutants/base tests_named_pass_without_a_fault ok "$(killers "$@" | wc -l) tests"
     printf '%s\n' "$@" | each --one
     [ -f "$work/lives" ] || return
     make -s -k -j "$jobs" $(for build in $(sort "$work/lives" |

@@ -139,7 +139,8 @@ say costs_are_in_the_order_of_the_work $?
 # Nothing is measured twice; what is missing is.
 stamp() { # when each was measured
     find "$build/trade/quick" -name '*.error' -o -name '*.cost' | sort |
-        xargs ls -l --time-style=full-iso | sed 's/.* \(20[0-9-]* [^ ]*\) .* /\1 /'
+        xargs ls -l --time-style=full-iso |
+        sed 's/.* \(20[0-9-]* [^ ]*\) .* /\1 /'
 }
 stamp >"$work/before"
 quick && stamp >"$work/after" && cmp -s "$work/before" "$work/after"
