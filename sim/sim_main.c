@@ -101,7 +101,7 @@ static void write_map(const sums_t *sums, cli_out_t *out)
 {
     image_t image;
 
-    image_new(&image, sums->field[SUMS_WIDTH], sums->field[SUMS_HEIGHT], true);
+    image_new_floats(&image, sums->field[SUMS_WIDTH], sums->field[SUMS_HEIGHT]);
     for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++) {
         image.floats[i] = (float)count_of(sums, i / 3); /* exact: <= 2^24 */
     }

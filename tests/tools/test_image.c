@@ -110,8 +110,8 @@ static void test_round_trips(void)
     for (unsigned s = 0; s < 6; s++) {
         for (unsigned kind = 0; kind < 4; kind++) {
             image_t i, f;
-            image_new(&i, sizes[s][0], sizes[s][1], false);
-            image_new(&f, sizes[s][0], sizes[s][1], true);
+            image_new_bytes(&i, sizes[s][0], sizes[s][1]);
+            image_new_floats(&f, sizes[s][0], sizes[s][1]);
             for (unsigned at = 0; at < 3u * i.width * i.height; at++) {
                 i.bytes[at] = pattern(
                         kind, at / 3 % i.width, at / 3 / i.width, at % 3);
@@ -356,7 +356,11 @@ static void test_damage(void)
     file_t file;
 
     for (unsigned kind = 0; kind < 3; kind++) {
-        image_new(&image, 6, 5, kind == IMAGE_PFM);
+        if (kind == IMAGE_PFM) {
+            image_new_floats(&image, 6, 5);
+        } else {
+            image_new_bytes(&image, 6, 5);
+        }
         for (unsigned i = 0; i < 90 && kind != IMAGE_PFM; i++) {
             image.bytes[i] = pattern(1, i, 0, 0);
         }

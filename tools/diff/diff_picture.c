@@ -349,7 +349,7 @@ diff_shown_t diff_picture(image_t *page, const image_t *a, const image_t *b,
         cli_fail(CLI_USAGE, "the difference would be %lux%lu pixels: too large",
                 (unsigned long)page_width(&l), (unsigned long)l.height);
     }
-    image_new(page, (uint32_t)page_width(&l), (uint32_t)l.height, false);
+    image_new_bytes(page, (uint32_t)page_width(&l), (uint32_t)l.height);
     memset(page->bytes, PAPER, diff_value_count(page));
     draw_difference(page, &l, &p, shown.scale);
     draw_legend(page, &l);

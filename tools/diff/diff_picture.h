@@ -4,6 +4,7 @@
 #ifndef DIFF_PICTURE_H
 #define DIFF_PICTURE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "lib/image/image.h"

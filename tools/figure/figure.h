@@ -7,6 +7,7 @@
 #ifndef FIGURE_H
 #define FIGURE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 

@@ -252,8 +252,8 @@ void figure_draw(const figure_t *figure, image_t *image, double scale)
 {
     canvas_t c = {image, NULL, scale, 0, 0, 0, 0};
 
-    image_new(image, (uint32_t)lround(figure->width * scale),
-            (uint32_t)lround(figure->height * scale), false);
+    image_new_bytes(image, (uint32_t)lround(figure->width * scale),
+            (uint32_t)lround(figure->height * scale));
     memset(image->bytes, 0xff, 3 * (size_t)image->width * image->height);
     c.cover = cli_alloc((size_t)image->width * image->height, sizeof *c.cover);
     for (size_t i = 0; i < figure->n; i++) {

@@ -43,11 +43,14 @@ double ref_cosine(const ref_surface_t *surface, ref_vec_t w)
 /* ---- Where mirrors and glass lead --------------------------------------- */
 
 /* v, turned across the surface's plane if it is not on the side wanted. */
-static ref_vec_t turned(const ref_surface_t *surface, ref_vec_t v, bool below)
+static ref_vec_t turned(
+        const ref_surface_t *surface, ref_vec_t v, ref_side_t wanted)
 {
     const double side = ref_dot(v, surface->n);
 
-    return (below ? side < 0 : side > 0) ? v : ref_mirrored(v, surface->n);
+    return (wanted == REF_BELOW ? side < 0 : side > 0)
+                   ? v
+                   : ref_mirrored(v, surface->n);
 }
 
 /* The normal that reflects and refracts. */
@@ -67,7 +70,8 @@ void ref_bsdf_begin(ref_bsdf_t *bsdf, const struct ref_rounding *rounding,
     bsdf->material = material;
     bsdf->front = front;
     bsdf->in = incoming;
-    bsdf->axis = turned(surface, ref_mirrored(incoming, facing(bsdf)), false);
+    bsdf->axis =
+            turned(surface, ref_mirrored(incoming, facing(bsdf)), REF_ABOVE);
 }
 
 static bool sample_glass(
@@ -95,10 +99,10 @@ static bool sample_glass(
         sample->direction = bsdf->axis;
         return true;
     }
-    sample->through = true;
+    sample->side = REF_BELOW;
     set_weight(sample, bsdf->material->specular, 1 / (index * index));
     sample->direction = turned(
-            bsdf->surface, ref_unit(ref_along(bsdf->in, n, c - g)), true);
+            bsdf->surface, ref_unit(ref_along(bsdf->in, n, c - g)), REF_BELOW);
     return true;
 }
 
@@ -208,10 +212,12 @@ static bool sample_both(const ref_bsdf_t *bsdf, ql_indirect_t density,
     return true;
 }
 
-bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density, bool delta,
-        uint32_t pick, ql_uniform2_t u, ref_bsdf_sample_t *sample)
+bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density,
+        ref_lobes_t lobes, uint32_t pick, ql_uniform2_t u,
+        ref_bsdf_sample_t *sample)
 {
     const ref_material_t *m = bsdf->material;
+    const bool delta = lobes == REF_LOBES_DELTA;
     const bool special = pick >> 1 < m->chance;
 
     memset(sample, 0, sizeof *sample);

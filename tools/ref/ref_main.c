@@ -160,7 +160,7 @@ static void write_linear(const job_t *job, cli_out_t *out)
     const double scale = job->scene->unit / (o->samples.end - o->samples.first);
     image_t image;
 
-    image_new(&image, o->settings.width, o->settings.height, true);
+    image_new_floats(&image, o->settings.width, o->settings.height);
     for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++) {
         image.floats[i] = (float)(job->rgb[i] * scale);
     }

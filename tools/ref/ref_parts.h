@@ -48,9 +48,12 @@ bool ref_blocked(const ref_scene_t *scene, const ref_ray_t *ray,
 void ref_surface_at(const ref_scene_t *scene, const ref_ray_t *ray,
         const ref_hit_t *hit, ref_surface_t *surface);
 
-/* A ray that leaves a surface; through leads to its other side. */
+/* A side of a surface: that of the point's normals, or the other. */
+typedef enum { REF_ABOVE, REF_BELOW } ref_side_t;
+
+/* A ray that leaves a surface to a side. */
 ref_ray_t ref_leave(
-        const ref_surface_t *surface, ref_vec_t direction, bool through);
+        const ref_surface_t *surface, ref_vec_t direction, ref_side_t side);
 
 /* ---- Warps: the core's maps, numbers in [0, 1) -------------------------- */
 
@@ -90,8 +93,12 @@ typedef struct {
     ref_vec_t direction;
     double weight[3]; /* f cos / (chance pdf) */
     double pdf;       /* per solid angle, times the chance */
-    bool delta, through;
+    bool delta;
+    ref_side_t side; /* where the direction leads */
 } ref_bsdf_sample_t;
+
+/* Which lobes a direction is drawn of. */
+typedef enum { REF_LOBES_ALL, REF_LOBES_DELTA } ref_lobes_t;
 
 void ref_bsdf_begin(ref_bsdf_t *bsdf, const struct ref_rounding *rounding,
         const ref_surface_t *surface, const ref_material_t *material,
@@ -101,8 +108,9 @@ bool ref_bsdf_has_delta(const ref_bsdf_t *bsdf);
 bool ref_bsdf_has_spread(const ref_bsdf_t *bsdf);
 
 /* As ql_bsdf_sample(): same numbers, same lobes. */
-bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density, bool delta,
-        uint32_t pick, ql_uniform2_t u, ref_bsdf_sample_t *sample);
+bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density,
+        ref_lobes_t lobes, uint32_t pick, ql_uniform2_t u,
+        ref_bsdf_sample_t *sample);
 
 /* f cos inverse of each lobe for an albedo, a specular colour of 1, by the
  * balance heuristic with mis. */

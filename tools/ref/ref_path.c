@@ -176,7 +176,7 @@ static void ask(path_t *path, uint32_t dim, const vertex_t *v, uint32_t light)
     if (!ref_aim(path->scene, s->direct, light, &v->surface, u, &aim)) {
         return;
     }
-    ray = ref_leave(&v->surface, aim.w, false);
+    ray = ref_leave(&v->surface, aim.w, REF_ABOVE);
     if (aim.shape == REF_NOWHERE) {
         path->stats->closest_rays++;
     } else {
@@ -222,20 +222,24 @@ static void direct_light(path_t *path, const vertex_t *v)
 
 /* ---- The next ray ------------------------------------------------------- */
 
-/* Draw a way from a vertex; look is 1 for the numbers of a second way. */
+/* What a way is drawn for, which says the numbers to draw it by. */
+typedef enum { TO_GO_ON, TO_LOOK } purpose_t;
+
+/* Draw a way from a vertex. */
 static bool draw(const path_t *path, const vertex_t *v, ql_indirect_t density,
-        bool delta, unsigned look, way_t *way)
+        ref_lobes_t lobes, purpose_t purpose, way_t *way)
 {
+    const bool look = purpose == TO_LOOK;
     const ql_uniform2_t u = ql_sampler_2d(
             &path->sampler, v->dim + (look ? QL_DIM_LOOK : QL_DIM_DIRECTION));
     const uint32_t pick = ql_sampler_1d(&path->sampler,
             v->dim + (look ? QL_DIM_LOOK_CHOICE : QL_DIM_CHOICE));
     ref_bsdf_sample_t sample;
 
-    if (!ref_bsdf_sample(&v->bsdf, density, delta, pick, u, &sample)) {
+    if (!ref_bsdf_sample(&v->bsdf, density, lobes, pick, u, &sample)) {
         return false;
     }
-    way->ray = ref_leave(&v->surface, sample.direction, sample.through);
+    way->ray = ref_leave(&v->surface, sample.direction, sample.side);
     for (unsigned k = 0; k < 3; k++) {
         way->carried[k] = product(path, v->carried[k], sample.weight[k]);
     }
@@ -305,20 +309,22 @@ static bool go_on(path_t *path, const vertex_t *v, state_t *state, way_t *way)
                 look != QL_INDIRECT_NONE && ref_bsdf_has_spread(&v->bsdf);
 
         state->last = true;
-        return (spread || mirror) && draw(path, v, look, !spread, 0, way);
+        return (spread || mirror) &&
+               draw(path, v, look, spread ? REF_LOBES_ALL : REF_LOBES_DELTA,
+                       TO_GO_ON, way);
     }
     apart = look != QL_INDIRECT_NONE && !same_density(&v->bsdf, look, density);
     if (apart) {
         ref_hit_t hit;
         way_t around;
 
-        if (draw(path, v, look, false, 1, &around)) {
+        if (draw(path, v, look, REF_LOBES_ALL, TO_LOOK, &around)) {
             (void)follow(path, &around, &hit);
         }
     } else if (look != QL_INDIRECT_NONE) {
         density = look;
     }
-    if (!draw(path, v, density, false, 0, way)) {
+    if (!draw(path, v, density, REF_LOBES_ALL, TO_GO_ON, way)) {
         return false;
     }
     if (apart || (way->delta ? !mirror : look == QL_INDIRECT_NONE)) {

@@ -232,13 +232,13 @@ void ref_surface_at(const ref_scene_t *scene, const ref_ray_t *ray,
 }
 
 ref_ray_t ref_leave(
-        const ref_surface_t *surface, ref_vec_t direction, bool through)
+        const ref_surface_t *surface, ref_vec_t direction, ref_side_t side)
 {
     ref_ray_t ray;
 
     ray.origin = surface->p;
     ray.direction = direction;
     ray.from = surface->shape;
-    ray.inside = surface->inside != through;
+    ray.inside = surface->inside != (side == REF_BELOW);
     return ray;
 }

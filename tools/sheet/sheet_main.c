@@ -259,7 +259,7 @@ static void write_sheet(const sheet_t *s)
     image_t sheet;
     cli_out_t out;
 
-    image_new(&sheet, (uint32_t)l.width, (uint32_t)l.height, false);
+    image_new_bytes(&sheet, (uint32_t)l.width, (uint32_t)l.height);
     memset(sheet.bytes, PAPER, 3 * l.width * l.height);
     draw_titles(&sheet, s, &l);
     for (unsigned i = 0; i < s->count; i++) {

@@ -8,14 +8,20 @@
 
 #include "lib/program/cli.h"
 
-void image_new(image_t *image, uint32_t width, uint32_t height, bool floats)
+void image_new_bytes(image_t *image, uint32_t width, uint32_t height)
 {
-    const size_t row = 3 * (size_t)width;
-
     image->width = width;
     image->height = height;
-    image->bytes = floats ? NULL : cli_alloc(height, row);
-    image->floats = floats ? cli_alloc(height, row * sizeof(float)) : NULL;
+    image->bytes = cli_alloc(height, 3 * (size_t)width);
+    image->floats = NULL;
+}
+
+void image_new_floats(image_t *image, uint32_t width, uint32_t height)
+{
+    image->width = width;
+    image->height = height;
+    image->bytes = NULL;
+    image->floats = cli_alloc(height, 3 * (size_t)width * sizeof(float));
 }
 
 void image_free(image_t *image)

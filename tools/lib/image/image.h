@@ -4,7 +4,6 @@
 #ifndef IMAGE_H
 #define IMAGE_H
 
-#include <stdbool.h>
 #include <stdint.h>
 
 #define IMAGE_SIDE_MAX   65535u
@@ -20,7 +19,8 @@ typedef struct {
 } image_t;
 
 /* A black picture. Ends in cli_fail(CLI_IO) if there is no memory. */
-void image_new(image_t *image, uint32_t width, uint32_t height, bool floats);
+void image_new_bytes(image_t *image, uint32_t width, uint32_t height);
+void image_new_floats(image_t *image, uint32_t width, uint32_t height);
 void image_free(image_t *image);
 
 #endif

@@ -157,7 +157,7 @@ static const char *expand(const png_t *png, image_t *image)
     lines = cli_alloc(size, 1);
     error = deflate_unpack(png->packed, png->packed_size, lines, size, &where);
     if (error == NULL) {
-        image_new(image, png->width, png->height, false);
+        image_new_bytes(image, png->width, png->height);
         error = unfilter(png, lines, image->bytes);
     }
     free(lines);

@@ -113,7 +113,7 @@ static const char *decode_ppm(image_t *image, cursor_t *c)
     n = (size_t)3 * image->width * image->height; /* < 2^30 */
     error = check_rest(c, n);
     if (error == NULL) {
-        image_new(image, image->width, image->height, false);
+        image_new_bytes(image, image->width, image->height);
         memcpy(image->bytes, c->data + c->at, n);
     }
     return error;
@@ -166,7 +166,7 @@ static const char *decode_pfm(image_t *image, cursor_t *c, unsigned channels)
     if (error != NULL) {
         return error;
     }
-    image_new(image, image->width, image->height, true);
+    image_new_floats(image, image->width, image->height);
     for (size_t y = 0; y < image->height; y++) { /* the file goes upwards */
         const uint8_t *from = c->data + c->at + 4 * channels * width * y;
         float *to = image->floats + 3 * width * (image->height - 1 - y);

@@ -88,11 +88,14 @@ static void develop_display(
 void develop(image_t *image, const sums_t *sums, image_kind_t kind,
         ql_format_t format)
 {
-    image_new(image, sums->field[SUMS_WIDTH], sums->field[SUMS_HEIGHT],
-            kind == IMAGE_PFM);
+    const uint32_t width = sums->field[SUMS_WIDTH];
+    const uint32_t height = sums->field[SUMS_HEIGHT];
+
     if (kind == IMAGE_PFM) {
+        image_new_floats(image, width, height);
         develop_linear(image, sums);
     } else {
+        image_new_bytes(image, width, height);
         develop_display(image, sums, format);
     }
 }
