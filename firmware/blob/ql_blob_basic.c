@@ -212,10 +212,10 @@ static bool lights_valid(const ql_blob_parts_t *parts, const ql_scene_t *scene)
 static bool camera_valid(const ql_blob_camera_t *camera)
 {
     for (unsigned k = 0; k < 3; k++) {
-        if (!ql_blob_reach_valid(camera->p[k][1]) ||
-                !ql_blob_reach_valid(camera->d[k]) ||
-                !ql_blob_reach_valid(camera->dr[k]) ||
-                !ql_blob_reach_valid(camera->du[k])) {
+        if (!ql_blob_reach_valid(camera->at[QL_CAMERA_BASE][k][1]) ||
+                !ql_blob_reach_valid(camera->towards[QL_CAMERA_BASE][k]) ||
+                !ql_blob_reach_valid(camera->towards[QL_CAMERA_RIGHT][k]) ||
+                !ql_blob_reach_valid(camera->towards[QL_CAMERA_UP][k])) {
             return false;
         }
     }

@@ -96,18 +96,17 @@ enum { QL_BLOB_OPTIONAL_MAX = 8 }; /* entries of that list */
 
 /* A pinhole camera: origin and direction are affine in the picture's plane.
  * A point (x, y) of the plane, y up, |y| <= 1 and |x| <= width/height, has
- *     origin    p + x pr + y pu    grid units, s31.32 as {low, high} words
- *     direction d + x dr + y du    any length, s1.30; each sum below 2^30
- * For an eye inside the scene p is the eye and pr, pu are 0; for one outside,
- * p lies on the plane through the scene's nearest corner. */
+ *     origin     at[BASE] + x at[RIGHT] + y at[UP]
+ *     direction  towards[BASE] + x towards[RIGHT] + y towards[UP]
+ * For an eye inside the scene at[BASE] is the eye and the other two are 0; for
+ * one outside it lies on the plane through the scene's nearest corner. */
 typedef struct {
-    uint32_t p[3][2];
-    uint32_t pr[3][2];
-    uint32_t pu[3][2];
-    uint32_t d[3];
-    uint32_t dr[3];
-    uint32_t du[3];
+    uint32_t at[3][3][2];   /* x, y, z: grid units, s31.32, {low, high} words */
+    uint32_t towards[3][3]; /* any length, s1.30; each sum is below 2^30 */
 } ql_blob_camera_t;
+
+/* The first index of both. */
+enum { QL_CAMERA_BASE, QL_CAMERA_RIGHT, QL_CAMERA_UP, QL_CAMERA_AFFINE };
 
 typedef struct {
     uint16_t xyz[3]; /* grid units, 8..32759 */

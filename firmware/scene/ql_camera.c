@@ -4,47 +4,24 @@
 #include "scene/ql_camera.h"
 
 #include "math/ql_vec_unit.h"
-#include "warp/ql_square.h"
-#include "warp/ql_warp.h"
+#include "scene/ql_lens.h"
 
 /* The box in s.16 grid units. */
 #define BOX_MAX_Q16 ((int64_t)QL_GRID_MAX << 16)
 
-static int64_t wide_field(const uint32_t words[2])
+/* A coordinate of the camera, affine on the plane: base + x right + y up. */
+typedef int64_t affine_t[QL_CAMERA_AFFINE];
+
+/* Axis 0..2 of the origin, s31.32, or 3..5 of the direction over 2^down. */
+static void affine_of(
+        const ql_blob_camera_t *c, unsigned axis, unsigned down, affine_t a)
 {
-    return ql_i64((uint64_t)QL_LE32(words[1]) << 32 | QL_LE32(words[0]));
-}
-
-static int64_t narrow_field(uint32_t word)
-{
-    return (int64_t)ql_i32(QL_LE32(word)) * 65536;
-}
-
-/* A coordinate as the blob has it: base + x right + y up on the plane. */
-enum { BASE, RIGHT, UP, AFFINE };
-
-/* p, pr, pu lie in a row, and so do d, dr, du. */
-QL_STATIC_ASSERT(offsetof(ql_blob_camera_t, pu) == 48 &&
-                         offsetof(ql_blob_camera_t, d) == 72 &&
-                         offsetof(ql_blob_camera_t, du) == 96,
-        ql_camera_vectors_in_a_row);
-
-/* Axis 0..2 of the origin, 3..5 of the direction; the latter over 2^down. */
-static void affine_of(const ql_blob_camera_t *c, unsigned axis, unsigned down,
-        int64_t a[AFFINE])
-{
-    for (unsigned i = 0; i < AFFINE; i++) {
-        const void *const field =
-                (const char *)c +
-                (axis < 3 ? i * sizeof c->p + axis * sizeof c->p[0]
-                          : offsetof(ql_blob_camera_t, d) + i * sizeof c->d +
-                                        (axis - 3) * sizeof c->d[0]);
-
+    for (unsigned i = 0; i < QL_CAMERA_AFFINE; i++) {
         if (axis < 3) {
-            a[i] = wide_field(field);
+            a[i] = ql_camera_wide(c->at[i][axis]);
             continue;
         }
-        a[i] = narrow_field(*(const uint32_t *)field);
+        a[i] = ql_camera_narrow(c->towards[i][axis - 3]);
         for (unsigned n = down; n > 0; n--) {
             a[i] = ql_asr64(a[i], 1);
         }
@@ -53,26 +30,27 @@ static void affine_of(const ql_blob_camera_t *c, unsigned axis, unsigned down,
 
 /* Steps per pixel: the picture is 2 high and 2 width/height wide; y points
  * down. Sums stay in 64 bits because ql_camera_init() checked reach_of(). */
-static void axis_init(ql_camera_axis_t *axis, const int64_t a[AFFINE],
-        uint16_t width, uint16_t height)
+static void axis_init(ql_camera_axis_t *axis, const affine_t a, uint16_t width,
+        uint16_t height)
 {
-    const int64_t half_x = ql_div_s64_u16(a[RIGHT], height);
-    const int64_t half_y = ql_div_s64_u16(-a[UP], height);
+    const int64_t half_x = ql_div_s64_u16(a[QL_CAMERA_RIGHT], height);
+    const int64_t half_y = ql_div_s64_u16(-a[QL_CAMERA_UP], height);
 
     axis->right = 2 * half_x;
     axis->down = 2 * half_y;
-    axis->corner = a[BASE] - ql_mul_s64_u16(half_x, width) -
+    axis->corner = a[QL_CAMERA_BASE] - ql_mul_s64_u16(half_x, width) -
                    ql_mul_s64_u16(half_y, height);
 }
 
 /* Size of a sum base + right * width / height + up; above 2^62 some number
  * above that. */
-static uint64_t reach_of(
-        const int64_t a[AFFINE], uint16_t width, uint16_t height)
+static uint64_t reach_of(const affine_t a, uint16_t width, uint16_t height)
 {
     const uint64_t limit = UINT64_MAX / 4;
-    const uint64_t side = ql_abs64(ql_div_s64_u16(a[RIGHT], height)) + 1;
-    const uint64_t base = ql_abs64(a[BASE]), up = ql_abs64(a[UP]);
+    const uint64_t side =
+            ql_abs64(ql_div_s64_u16(a[QL_CAMERA_RIGHT], height)) + 1;
+    const uint64_t base = ql_abs64(a[QL_CAMERA_BASE]);
+    const uint64_t up = ql_abs64(a[QL_CAMERA_UP]);
 
     /* width <= 2^14 and side <= 2^63, so the first product fits */
     if (base > limit || up > limit ||
@@ -83,71 +61,54 @@ static uint64_t reach_of(
     return base + (uint64_t)ql_mul_s64_u16((int64_t)side, width) + up;
 }
 
-#if QL_CFG_LENS
-/* What a lens adds to a reach: both of its halves, and what ql_warp_disk() may
- * err by. At most 2^63 + 2^49. */
-static uint64_t lens_reach(int64_t first, int64_t second)
+/* The largest component of a direction of the picture, lens included. */
+static uint64_t direction_reach(
+        const ql_scene_t *scene, uint16_t width, uint16_t height)
 {
-    const uint64_t sum = ql_abs64(first) + ql_abs64(second);
+    uint64_t film = 0, reach = 0;
 
-    return sum + (sum >> 14);
+    for (unsigned k = 0; k < 3; k++) {
+        affine_t a;
+        uint64_t r;
+
+        affine_of(scene->camera, 3 + k, 0, a);
+        r = reach_of(a, width, height); /* below 2^61 */
+        film = r > film ? r : film;
+    }
+    for (unsigned k = 0; k < 3; k++) {
+        const uint64_t r = film + ql_lens_direction_reach(scene, k);
+
+        reach = r > reach ? r : reach;
+    }
+    return reach;
 }
-#endif
 
 bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         uint16_t width, uint16_t height)
 {
-    uint64_t reach = 0;
+    const uint64_t most = (uint64_t)1 << 62;
+    uint64_t reach = direction_reach(scene, width, height);
     unsigned down = 0;
 
     /* Directions of very wide pictures are scaled to stay below 2^30. */
-    for (unsigned k = 3; k < 6; k++) {
-        int64_t a[AFFINE];
-        uint64_t r;
-
-        affine_of(scene->camera, k, 0, a);
-        r = reach_of(a, width, height);
-        reach = r > reach ? r : reach;
-    }
-#if QL_CFG_LENS
-    camera->lens = scene->lens;
-    if (scene->lens != NULL) {
-        const uint64_t at_film = reach; /* below 2^61 */
-
-        for (unsigned k = 0; k < 3; k++) {
-            const uint64_t r =
-                    at_film + lens_reach(narrow_field(scene->lens->d[0][k]),
-                                      narrow_field(scene->lens->d[1][k]));
-
-            reach = r > reach ? r : reach;
-        }
-    }
-#endif
     for (; reach > (uint64_t)1 << 46; reach >>= 1) {
         down++;
     }
     for (unsigned k = 0; k < 6; k++) {
-        int64_t a[AFFINE];
+        affine_t a;
 
         affine_of(scene->camera, k, down, a);
         if (k < 3) {
-            uint64_t r = reach_of(a, width, height);
+            const uint64_t r = reach_of(a, width, height);
 
-#if QL_CFG_LENS
-            if (scene->lens != NULL && r <= (uint64_t)1 << 62) {
-                r += lens_reach(wide_field(scene->lens->p[0][k]),
-                        wide_field(scene->lens->p[1][k]));
-            }
-#endif
-            if (r > (uint64_t)1 << 62) {
+            /* the lens adds at most 2^63 + 2^49, so the sum fits */
+            if (r > most || r + ql_lens_origin_reach(scene, k) > most) {
                 return false;
             }
         }
         axis_init(&camera->axes[k], a, width, height);
     }
-#if QL_CFG_LENS
-    camera->down = (uint8_t)down; /* <= 15: reach < 2^61 + 2^48 */
-#endif
+    ql_lens_init(camera, scene, (uint8_t)down); /* <= 15: reach < 2^61 + 2^48 */
     return true;
 }
 
@@ -167,18 +128,18 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
 /* step (2^16 of a unit) * u, u in 2^-16: exact floor */
 static int64_t part_of(int64_t step, uint32_t u_q16)
 {
-#if QL_CFG_SMALL
-    /* |step| < 2^63, so the product is below 2^47 2^16 */
-    return ql_asr64(ql_mul_s64_u16(ql_asr64(step, 16), (uint16_t)u_q16), 16);
-#else
     const int32_t high = (int32_t)ql_asr64(step, 32);
     const uint32_t low = ((uint32_t)ql_asr64(step, 16) & 0xffffu) * u_q16 >> 16;
 
+    if (QL_CFG_SMALL) {
+        /* |step| < 2^63, so the product is below 2^47 2^16 */
+        return ql_asr64(
+                ql_mul_s64_u16(ql_asr64(step, 16), (uint16_t)u_q16), 16);
+    }
     if (ql_abs32(high) < 32768u) { /* 2^15 grid units a pixel */
         return high * (int32_t)u_q16 + (int32_t)low;
     }
     return ql_mul_s64_u16(high, (uint16_t)u_q16) + (int32_t)low;
-#endif
 }
 
 /* Outside the box, in s.16? */
@@ -257,27 +218,6 @@ QL_FAST_INLINE ql_pos_t to_position(int64_t q16)
     return (ql_pos_t)(p < 0 ? 0 : p > max ? max : p);
 }
 
-#if QL_CFG_LENS
-/* Move the ray to a point (a, b) of the lens. */
-static void lens_add(const ql_camera_t *camera, ql_uniform2_t u, int64_t at[6])
-{
-    const ql_blob_lens_t *lens = camera->lens;
-    ql_q29_t a[2];
-
-    ql_warp_disk(u.u1, u.u2, &a[0], &a[1]);
-    for (unsigned i = 0; i < 6; i++) {
-        /* p in s31.16 = high 2^16 + low: products below 2^60 */
-        const unsigned k = i >> 1;
-        const int64_t p = ql_asr64(wide_field(lens->p[i & 1u][k]), 16);
-        const int64_t high = ql_asr64(p, 16), low = p & 0xffff;
-        const int64_t d = ql_i32(QL_LE32(lens->d[i & 1u][k]));
-
-        at[k] += ql_asr64(high * a[i & 1u], 13) + ql_asr64(low * a[i & 1u], 29);
-        at[3 + k] += ql_asr64(d * a[i & 1u], 29u + camera->down);
-    }
-}
-#endif
-
 bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
         ql_uniform2_t lens, ql_ray_t *ray)
 {
@@ -293,13 +233,7 @@ bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
         at[k] = pixel->corner[k] + part_of(camera->axes[k].right, right) +
                 part_of(camera->axes[k].down, below);
     }
-#if QL_CFG_LENS
-    if (camera->lens != NULL) {
-        lens_add(camera, lens, at);
-    }
-#else
-    (void)lens;
-#endif
+    ql_lens_move(camera, lens, at);
     for (unsigned k = 0; k < 3; k++) {
         /* ql_camera_init() keeps it at 2^30 or below */
         direction[k] = (int32_t)at[3 + k];

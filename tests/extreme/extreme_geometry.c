@@ -658,7 +658,7 @@ TEST(case_12_directions_with_zero_components_equal_the_oracle)
     NOTE("%lu rays, %lu hits", rays, hits);
 }
 
-/* A component as the blob has it: 0..2 of d, dr and du. */
+/* A component as the blob has it: an axis of one of the directions. */
 static void set_direction(unsigned which, unsigned axis, uint32_t value)
 {
     const ql_blob_header_t *const header =
@@ -666,11 +666,8 @@ static void set_direction(unsigned which, unsigned axis, uint32_t value)
     ql_blob_camera_t *const camera =
             (ql_blob_camera_t *)(void *)((char *)m.blob +
                                          QL_LE32(header->camera.offset));
-    uint32_t *const at = which == 0   ? camera->d
-                         : which == 1 ? camera->dr
-                                      : camera->du;
 
-    at[axis] = QL_LE32(value);
+    camera->towards[which][axis] = QL_LE32(value);
 }
 
 static unsigned cast;

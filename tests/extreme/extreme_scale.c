@@ -239,7 +239,7 @@ TEST(case_19_scenes_moved_by_grid_units_give_the_same_bits)
         }
     }
     /* by a unit of the camera alone they are not the same */
-    m.camera.p[0][1]++;
+    m.camera.at[QL_CAMERA_BASE][0][1]++;
     mini_open(&m, &scene);
     render(away, 16);
     CHECK(memcmp(home, away, sizeof home) != 0, "a moved camera sees the same");

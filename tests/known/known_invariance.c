@@ -123,7 +123,7 @@ TEST(comparison_rejects_a_camera_moved_by_one_unit)
 {
     make_room(600, 16);
     render(at_home, 8);
-    m.camera.p[0][1]++;
+    m.camera.at[QL_CAMERA_BASE][0][1]++;
     render(moved, 8);
     CHECK(differing(at_home, moved) > SIZE * SIZE / 2, "%u px differ",
             differing(at_home, moved));

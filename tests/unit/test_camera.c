@@ -62,12 +62,12 @@ static reference_t reference(ql_uniform2_t lens)
         ql_warp_disk(lens.u1, lens.u2, &at[0], &at[1]);
     }
     for (unsigned k = 0; k < 3; k++) {
-        r.p[k] = wide(mini.camera.p[k]);
-        r.pr[k] = wide(mini.camera.pr[k]);
-        r.pu[k] = wide(mini.camera.pu[k]);
-        r.d[k] = narrow(mini.camera.d[k]);
-        r.dr[k] = narrow(mini.camera.dr[k]);
-        r.du[k] = narrow(mini.camera.du[k]);
+        r.p[k] = wide(mini.camera.at[QL_CAMERA_BASE][k]);
+        r.pr[k] = wide(mini.camera.at[QL_CAMERA_RIGHT][k]);
+        r.pu[k] = wide(mini.camera.at[QL_CAMERA_UP][k]);
+        r.d[k] = narrow(mini.camera.towards[QL_CAMERA_BASE][k]);
+        r.dr[k] = narrow(mini.camera.towards[QL_CAMERA_RIGHT][k]);
+        r.du[k] = narrow(mini.camera.towards[QL_CAMERA_UP][k]);
         for (unsigned i = 0; i < 2 && mini.has_lens; i++) {
             r.p[k] += ldexp(at[i], -29) * wide(mini.lens.p[i][k]);
             r.d[k] += ldexp(at[i], -29) * narrow(mini.lens.d[i][k]);

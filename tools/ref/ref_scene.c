@@ -48,12 +48,12 @@ static void read_camera(ref_scene_t *scene)
     const ql_blob_camera_t *c = scene->blob->camera;
     const ql_blob_lens_t *lens = scene->blob->lens;
 
-    scene->p = wide_vector(c->p);
-    scene->pr = wide_vector(c->pr);
-    scene->pu = wide_vector(c->pu);
-    scene->d = narrow_vector(c->d);
-    scene->dr = narrow_vector(c->dr);
-    scene->du = narrow_vector(c->du);
+    scene->p = wide_vector(c->at[QL_CAMERA_BASE]);
+    scene->pr = wide_vector(c->at[QL_CAMERA_RIGHT]);
+    scene->pu = wide_vector(c->at[QL_CAMERA_UP]);
+    scene->d = narrow_vector(c->towards[QL_CAMERA_BASE]);
+    scene->dr = narrow_vector(c->towards[QL_CAMERA_RIGHT]);
+    scene->du = narrow_vector(c->towards[QL_CAMERA_UP]);
     for (unsigned i = 0; lens != NULL && i < 2; i++) {
         scene->lens_p[i] = wide_vector(lens->p[i]);
         scene->lens_d[i] = narrow_vector(lens->d[i]);

@@ -185,12 +185,12 @@ static fp_vec_t convert_narrow(const uint32_t field[3])
 
 static void convert_camera(fp_camera_t *camera, const ql_blob_camera_t *from)
 {
-    camera->p = convert_wide(from->p);
-    camera->pr = convert_wide(from->pr);
-    camera->pu = convert_wide(from->pu);
-    camera->d = convert_narrow(from->d);
-    camera->dr = convert_narrow(from->dr);
-    camera->du = convert_narrow(from->du);
+    camera->p = convert_wide(from->at[QL_CAMERA_BASE]);
+    camera->pr = convert_wide(from->at[QL_CAMERA_RIGHT]);
+    camera->pu = convert_wide(from->at[QL_CAMERA_UP]);
+    camera->d = convert_narrow(from->towards[QL_CAMERA_BASE]);
+    camera->dr = convert_narrow(from->towards[QL_CAMERA_RIGHT]);
+    camera->du = convert_narrow(from->towards[QL_CAMERA_UP]);
 }
 
 void fp_open(fp_scene_t *fp, const ql_scene_t *scene, void *memory)

@@ -189,31 +189,31 @@ static uint32_t q30(double value)
 
 void mini_eye(mini_scene_t *m, double x, double y, double z)
 {
-    put_wide(m->camera.p[0], x);
-    put_wide(m->camera.p[1], y);
-    put_wide(m->camera.p[2], z);
+    put_wide(m->camera.at[QL_CAMERA_BASE][0], x);
+    put_wide(m->camera.at[QL_CAMERA_BASE][1], y);
+    put_wide(m->camera.at[QL_CAMERA_BASE][2], z);
 }
 
 void mini_look(mini_scene_t *m, double x, double y, double z)
 {
-    m->camera.d[0] = q30(x);
-    m->camera.d[1] = q30(y);
-    m->camera.d[2] = q30(z);
+    m->camera.towards[QL_CAMERA_BASE][0] = q30(x);
+    m->camera.towards[QL_CAMERA_BASE][1] = q30(y);
+    m->camera.towards[QL_CAMERA_BASE][2] = q30(z);
 }
 
 void mini_field(mini_scene_t *m, const double right[3], const double up[3])
 {
     for (int k = 0; k < 3; k++) {
-        m->camera.dr[k] = q30(right[k]);
-        m->camera.du[k] = q30(up[k]);
+        m->camera.towards[QL_CAMERA_RIGHT][k] = q30(right[k]);
+        m->camera.towards[QL_CAMERA_UP][k] = q30(up[k]);
     }
 }
 
 void mini_window(mini_scene_t *m, const double right[3], const double up[3])
 {
     for (int k = 0; k < 3; k++) {
-        put_wide(m->camera.pr[k], right[k]);
-        put_wide(m->camera.pu[k], up[k]);
+        put_wide(m->camera.at[QL_CAMERA_RIGHT][k], right[k]);
+        put_wide(m->camera.at[QL_CAMERA_UP][k], up[k]);
     }
 }
 
@@ -389,7 +389,7 @@ void mini_move(mini_scene_t *m, int32_t x, int32_t y, int32_t z)
     const int32_t by[3] = {x, y, z};
 
     for (int k = 0; k < 3; k++) {
-        m->camera.p[k][1] += (uint32_t)by[k];
+        m->camera.at[QL_CAMERA_BASE][k][1] += (uint32_t)by[k];
         for (unsigned i = 0; i < m->vertex_count; i++) {
             m->vertices[i][k] += by[k];
         }
@@ -556,14 +556,12 @@ static double twice_area(const mini_scene_t *m, unsigned triangle)
 static void put_camera(writer_t *w)
 {
     const ql_blob_camera_t *c = &w->m->camera;
-    const uint32_t(*const wide[3])[2] = {c->p, c->pr, c->pu};
-    const uint32_t *const narrow[3] = {c->d, c->dr, c->du};
 
     for (int i = 0; i < 18; i++) {
-        put(w, wide[i / 6][i % 6 / 2][i % 2], 4);
+        put(w, c->at[i / 6][i % 6 / 2][i % 2], 4);
     }
     for (int i = 0; i < 9; i++) {
-        put(w, narrow[i / 3][i % 3], 4);
+        put(w, c->towards[i / 3][i % 3], 4);
     }
 }
 

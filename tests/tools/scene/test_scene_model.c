@@ -300,10 +300,16 @@ static void check_ray(const ql_blob_camera_t *c, const grid_t *grid,
     for (int k = 0; k < 3; k++) {
         const double unit = soft_double(grid->unit);
 
-        o[k] = wide(c->p[k]) + x * wide(c->pr[k]) + y * wide(c->pu[k]);
-        d[k] = narrow(c->d[k]) + x * narrow(c->dr[k]) + y * narrow(c->du[k]);
-        CHECK(fabs(narrow(c->d[k])) + 4 * fabs(narrow(c->dr[k])) +
-                                fabs(narrow(c->du[k])) <
+        o[k] = wide(c->at[QL_CAMERA_BASE][k]) +
+               x * wide(c->at[QL_CAMERA_RIGHT][k]) +
+               y * wide(c->at[QL_CAMERA_UP][k]);
+        d[k] = narrow(c->towards[QL_CAMERA_BASE][k]) +
+               x * narrow(c->towards[QL_CAMERA_RIGHT][k]) +
+               y * narrow(c->towards[QL_CAMERA_UP][k]);
+        CHECK(fabs(narrow(c->towards[QL_CAMERA_BASE][k])) +
+                                4 * fabs(narrow(
+                                            c->towards[QL_CAMERA_RIGHT][k])) +
+                                fabs(narrow(c->towards[QL_CAMERA_UP][k])) <
                         0x1p30,
                 "axis %d", k);
         v[k] = axes[2][k] + slope * (x * axes[0][k] + y * axes[1][k]);
@@ -365,7 +371,8 @@ static void check_view(double ex, double ey, double ez, double fov, bool far)
         CHECK(lens.d[i / 3][i % 3] == 0 && wide(lens.p[i / 3][i % 3]) == 0,
                 "a pinhole has a lens");
     }
-    CHECK(far == ((c.pr[0][0] | c.pr[1][0] | c.pr[2][0]) != 0),
+    CHECK(far == ((c.at[QL_CAMERA_RIGHT][0][0] | c.at[QL_CAMERA_RIGHT][1][0] |
+                          c.at[QL_CAMERA_RIGHT][2][0]) != 0),
             "origins %s a plane", far ? "should lie on" : "should not lie on");
     for (int i = 0; i < 9; i++) {
         check_ray(&c, &grid, &camera, (const double(*)[3])axes, i % 3 - 1,
@@ -403,11 +410,14 @@ static void check_lens_ray(const ql_blob_camera_t *c,
     double o[3], d[3], way[3], length = 0, along = 0, off = 0, dw = 0, dd = 0;
 
     for (int k = 0; k < 3; k++) {
-        o[k] = wide(c->p[k]) + s[0] * wide(c->pr[k]) + s[1] * wide(c->pu[k]) +
+        o[k] = wide(c->at[QL_CAMERA_BASE][k]) +
+               s[0] * wide(c->at[QL_CAMERA_RIGHT][k]) +
+               s[1] * wide(c->at[QL_CAMERA_UP][k]) +
                s[2] * wide(lens->p[0][k]) + s[3] * wide(lens->p[1][k]);
-        d[k] = narrow(c->d[k]) + s[0] * narrow(c->dr[k]) +
-               s[1] * narrow(c->du[k]) + s[2] * narrow(lens->d[0][k]) +
-               s[3] * narrow(lens->d[1][k]);
+        d[k] = narrow(c->towards[QL_CAMERA_BASE][k]) +
+               s[0] * narrow(c->towards[QL_CAMERA_RIGHT][k]) +
+               s[1] * narrow(c->towards[QL_CAMERA_UP][k]) +
+               s[2] * narrow(lens->d[0][k]) + s[3] * narrow(lens->d[1][k]);
         /* seen from the lens point, in grid units */
         o[k] -= (at[k] - soft_double(grid->origin[k])) / unit + GRID_LOW;
         way[k] = (f * v[k] - at[k]) / unit;
@@ -431,12 +441,15 @@ static void check_lens_bounds(
         const ql_blob_camera_t *c, const ql_blob_lens_t *lens)
 {
     for (int k = 0; k < 3; k++) {
-        const double d = fabs(narrow(c->d[k])) + 4 * fabs(narrow(c->dr[k])) +
-                         fabs(narrow(c->du[k])) + fabs(narrow(lens->d[0][k])) +
+        const double d = fabs(narrow(c->towards[QL_CAMERA_BASE][k])) +
+                         4 * fabs(narrow(c->towards[QL_CAMERA_RIGHT][k])) +
+                         fabs(narrow(c->towards[QL_CAMERA_UP][k])) +
+                         fabs(narrow(lens->d[0][k])) +
                          fabs(narrow(lens->d[1][k]));
-        const double p = fabs(wide(c->p[k])) + 4 * fabs(wide(c->pr[k])) +
-                         fabs(wide(c->pu[k])) + fabs(wide(lens->p[0][k])) +
-                         fabs(wide(lens->p[1][k]));
+        const double p = fabs(wide(c->at[QL_CAMERA_BASE][k])) +
+                         4 * fabs(wide(c->at[QL_CAMERA_RIGHT][k])) +
+                         fabs(wide(c->at[QL_CAMERA_UP][k])) +
+                         fabs(wide(lens->p[0][k])) + fabs(wide(lens->p[1][k]));
 
         CHECK(d < 0x1p30, "axis %d: direction reaches %g", k, d);
         CHECK(p < 0x1p30, "axis %d: origin reaches %g", k, p);
@@ -464,7 +477,8 @@ static void check_lens(double near, double fov, double radius, double focus)
     add_triangle(&world, corners, NULL);
     grid_round(&grid, &world);
     build_camera(&c, &lens, &world, &grid);
-    CHECK((near > 0.01) == (wide(c.pr[0]) != 0), "near %g", near);
+    CHECK((near > 0.01) == (wide(c.at[QL_CAMERA_RIGHT][0]) != 0), "near %g",
+            near);
     check_lens_bounds(&c, &lens);
     for (int i = 0; i < 6; i++) {
         check_lens_ray(&c, &lens, &world, &grid, samples[i]);

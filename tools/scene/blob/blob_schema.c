@@ -45,12 +45,12 @@ enum {
     F(T, count, U32, 1, NULL, 0, NULL)
 
 #define CAMERA(F, P, T)                                                        \
-    F(T, p, WIDE, 3, "p", 2, "an origin")                                      \
-    F(T, pr, WIDE, 3, "pr", 1, "an origin")                                    \
-    F(T, pu, WIDE, 3, "pu", 1, "an origin")                                    \
-    F(T, d, X32, 3, "d", 2, "a direction")                                     \
-    F(T, dr, X32, 3, "dr", 1, "a direction")                                   \
-    F(T, du, X32, 3, "du", 1, "a direction")
+    F(T, at[0], WIDE, 3, "p", 2, "an origin")                                  \
+    F(T, at[1], WIDE, 3, "pr", 1, "an origin")                                 \
+    F(T, at[2], WIDE, 3, "pu", 1, "an origin")                                 \
+    F(T, towards[0], X32, 3, "d", 2, "a direction")                            \
+    F(T, towards[1], X32, 3, "dr", 1, "a direction")                           \
+    F(T, towards[2], X32, 3, "du", 1, "a direction")
 
 #define VERTEX(F, P, T) F(T, xyz, U16, 3, "v", 1, "a coordinate")
 

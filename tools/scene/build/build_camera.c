@@ -78,9 +78,9 @@ static bool round_directions(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
                llabs(d) + aspect * llabs(dr) + llabs(du) + llabs(da) +
                                llabs(db) <
                        limit;
-        camera->d[k] = (uint32_t)(uint64_t)d;
-        camera->dr[k] = (uint32_t)(uint64_t)dr;
-        camera->du[k] = (uint32_t)(uint64_t)du;
+        camera->towards[QL_CAMERA_BASE][k] = (uint32_t)(uint64_t)d;
+        camera->towards[QL_CAMERA_RIGHT][k] = (uint32_t)(uint64_t)dr;
+        camera->towards[QL_CAMERA_UP][k] = (uint32_t)(uint64_t)du;
         lens->d[0][k] = (uint32_t)(uint64_t)da;
         lens->d[1][k] = (uint32_t)(uint64_t)db;
     }
@@ -241,9 +241,9 @@ void build_camera(ql_blob_camera_t *camera, ql_blob_lens_t *lens,
     }
     check_reach(world, &o, aspect);
     for (int k = 0; k < 3; k++) {
-        put_wide(camera->p[k], soft_round(o.p.k[k], 32));
-        put_wide(camera->pr[k], soft_round(o.pr.k[k], 32));
-        put_wide(camera->pu[k], soft_round(o.pu.k[k], 32));
+        put_wide(camera->at[QL_CAMERA_BASE][k], soft_round(o.p.k[k], 32));
+        put_wide(camera->at[QL_CAMERA_RIGHT][k], soft_round(o.pr.k[k], 32));
+        put_wide(camera->at[QL_CAMERA_UP][k], soft_round(o.pu.k[k], 32));
         put_wide(lens->p[0][k], soft_round(o.rim[0].k[k], 32));
         put_wide(lens->p[1][k], soft_round(o.rim[1].k[k], 32));
     }
