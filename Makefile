@@ -16,7 +16,7 @@
 .SUFFIXES:
 MAKEFLAGS += --no-builtin-rules
 
-O ?= build
+override O := $(or $(strip $O),build)
 CC ?= cc
 AR ?= ar
 CFLAGS ?= -O2 -g

@@ -79,7 +79,8 @@ programs_configs := $(foreach c,$(filter-out $(full),$(configs)),$(addprefix \
 jobs_gates := configs/triples|tests/configs/test_gates.sh --triples; \
     configs/gates|tests/configs/test_gates.sh;
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
-jobs_scripts := tools/sim|tests/tools/test_sim.sh; \
+jobs_scripts := tools/make|tests/tools/test_make.sh; \
+    tools/sim|tests/tools/test_sim.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/scene/test_scene.sh; \
     tools/lut|tests/tools/test_lut.sh; \

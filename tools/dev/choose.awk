@@ -55,6 +55,8 @@ function is_number(text, first, last)
         text + 0 >= first && text + 0 <= last
 }
 
+# Is there such a scene? Prints what its files are called: words of make and of
+# the shell.
 function check_scene(name,    file, line)
 {
     file = value[name]
@@ -63,6 +65,10 @@ function check_scene(name,    file, line)
     if ((getline line < file) < 0)
         wrong(name, "the path of a .scene file, or " either(scenes))
     close(file)
+    sub(/.*\//, "", file)
+    sub(/\.scene$/, "", file)
+    gsub(/[] \t'"$&();:*?<>|!{}\\~#%`,=@^+[]/, "_", file)
+    scene_name = file
 }
 
 function check_part(name, text)
@@ -283,6 +289,7 @@ END {
             check_use(key)
     if ("BOARD" in value)
         print_gates()
+    print "scene=" scene_name
     for (k = 1; k <= n; k++)
         print_choice(name[k])
 }

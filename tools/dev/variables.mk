@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: MIT
 #
 # After it every variable of tools/dev/variables.txt has its value, and
-#   scene          name of the picture's files: that of SCENE without blanks
+#   scene          name of the picture's files: that of SCENE, _ for blanks
 #   scene_file     the path of the .scene; quote it for the shell
 #   scene_newer    FORCE if the scene, or what lies beside it, is newer
 #   sim_options    the picture in the words of qlux-sim
 #   board_defines  the picture and the gates, for the compiler of BOARD
 #   board_indirect 1 if BOARD's firmware has paths beyond the first hit
 
-ifneq ($(or $(findstring $(space),$(strip $O)),$(findstring ',$O)),)
+ifneq ($(or $(findstring $(space),$O),$(findstring ',$O)),)
 $(error O=$O: use the path of a folder without blanks)
 endif
 
@@ -33,12 +33,10 @@ $(error $(wordlist 2,$(words $(chosen)),$(chosen)))
 endif
 $(foreach word,$(chosen),$(eval override $(word)))
 
-# Words of make have no blanks, so the name has none; the path is the shell's.
+# Words of make have no blanks: the path is never one, but quoted for the shell.
 override SCENE := $(or $(SCENE),cornell)
-scene_word := $(subst $(space),_,$(SCENE))
-scene := $(basename $(notdir $(scene_word)))
 scene_file := $(SCENE)
-ifeq ($(filter %.scene,$(scene_word)),)
+ifeq ($(filter %.scene,$(subst $(space),_,$(SCENE))),)
 scene_file := tests/scenes/$(SCENE).scene
 endif
 scene_newer := $(if $(shell f=$(call quote,$(scene_file)); d=$${f%/*}; \
