@@ -228,10 +228,22 @@ static void check_block(FILE *file, const char *name, const blob_struct_t *s)
     CHECK(rows == expected, "%s: %u rows, expected %u", name, rows, expected);
 }
 
+/* A heading that says bytes says those of the table's entry. */
+static void check_heading(const char *heading, const blob_table_t *t)
+{
+    char bytes[16];
+
+    (void)snprintf(
+            bytes, sizeof bytes, " %lu ", (unsigned long)blob_entry_bytes(t));
+    CHECK(strpbrk(heading, "0123456789") == NULL ||
+                    strstr(heading, bytes) != NULL,
+            "%s: %s", t->name, heading);
+}
+
 TEST(blob_md_has_every_field_where_it_is)
 {
     FILE *file = fopen("firmware/BLOB.md", "rb");
-    char line[256];
+    char line[256], heading[256] = "";
     int i = -1;
 
     if (file == NULL) {
@@ -239,10 +251,14 @@ TEST(blob_md_has_every_field_where_it_is)
         return;
     }
     while (fgets(line, sizeof line, file) != NULL) {
+        if (strncmp(line, "## ", 3) == 0) {
+            memcpy(heading, line, sizeof heading);
+        }
         if (strncmp(line, block, strlen(block)) == 0) {
             const blob_table_t *t = i < 0 ? &blob_header : blob_tables + i;
 
             if (i < BLOB_TABLE_COUNT) {
+                check_heading(heading, t);
                 check_block(file, t->name, &t->entry);
             }
             i++;
