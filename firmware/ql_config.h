@@ -248,6 +248,9 @@
 #define QL_GLOSS 0
 #endif
 
+/* Materials with a lobe of a single direction. */
+#define QL_SPECULAR (QL_CFG_MIRROR || QL_CFG_GLASS)
+
 /* A member of a struct, or its initialiser, that exists only if a gate is 1, so
  * that a board keeps no RAM for what it was built without. Only for members:
  * the header of a feature has one-line stubs for functions that are not built,

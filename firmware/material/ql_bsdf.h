@@ -1,18 +1,28 @@
-/* ql_bsdf.h - how a surface reflects: sample, density, value of a material */
+/* ql_bsdf.h - how a surface scatters light: sample and value of its BSDF */
 /* SPDX-License-Identifier: MIT */
 
-/* f = Kd/pi + Ks (n + 2)/(2 pi) cos^n(alpha), alpha from the mirror direction
- * (Lafortune and Willems 1994), or with all of Ks exactly there (mirror), or
- * glass. One of the two lobes is drawn with a fixed chance; each is an integral
- * of its own, so weights and densities are those of the lobe drawn, and
- * cos^n is needed only where a direction came from elsewhere. Directions point
- * away from the surface. */
+/* A material has up to two lobes, and each lobe is an integral of its own:
+ *
+ *   diffuse   Kd/pi                                     ql_diffuse.h
+ *   Phong     Ks (n + 2)/(2 pi) cos^n(alpha), alpha     ql_phong.h
+ *             from the mirror direction
+ *   mirror    all of Ks in the mirror direction         ql_mirror.h
+ *   glass     reflected or refracted, by Fresnel        ql_glass.h
+ *
+ * Beside the diffuse lobe there is at most one other, which is drawn with a
+ * fixed chance P; glass is alone. Weights and densities are those of the lobe
+ * that was drawn, so the other lobe's cos^n is never needed. The lobes do not
+ * know their chances: the functions here divide by them. A specular lobe is one
+ * of a single direction: a mirror or glass. All directions lead away from the
+ * surface; wo is that back along the ray that came, wi one that light comes
+ * from. */
 
 #ifndef QL_BSDF_H
 #define QL_BSDF_H
 
 #include "base/ql_density.h"
 #include "math/ql_rgb.h"
+#include "math/ql_vec_unit.h"
 #include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
@@ -23,22 +33,38 @@ typedef struct {
     const ql_surface_t *surface;
     const ql_blob_material_t *material;
     const ql_blob_gloss_t *gloss; /* NULL: diffuse only */
-#if QL_GLOSS
-    ql_vec3_t n;    /* s2.29: unit shading normal; if gloss */
-    ql_vec3_t axis; /* s2.29: unit mirror direction, above the surface */
-    ql_vec3_t in;   /* s2.29: unit direction of the ray that came */
-    bool front;     /* of glass: it came from outside */
-#endif
+    /* if gloss is set: unit vectors in s2.29, and the side that was hit */
+    QL_IF_BUILT(QL_GLOSS, ql_vec3_t n;)        /* the shading normal */
+    QL_IF_BUILT(QL_GLOSS, ql_vec3_t mirror;)   /* mirror direction, above */
+    QL_IF_BUILT(QL_GLOSS, ql_vec3_t minus_wo;) /* of the ray that came */
+    QL_IF_BUILT(QL_GLOSS, bool front;)         /* it came from outside */
 } ql_bsdf_t;
 
 /* A direction to go on in. */
 typedef struct {
-    ql_vec3_t direction; /* ql_dir_t, not zero */
-    ql_rgb_t weight;     /* f cos / (chance of the lobe times its pdf) */
-    ql_real_t pdf;       /* per solid angle, times the chance; 0: delta */
-    bool delta;          /* mirror or glass */
-    bool through;        /* glass: it leads behind the surface */
+    ql_vec3_t wi;    /* ql_dir_t, not zero */
+    ql_rgb_t weight; /* f cos / (chance of the lobe times its pdf) */
+    bool specular;   /* of a mirror's or glass's lobe */
+    bool through;    /* of glass: it leads behind the surface */
 } ql_bsdf_sample_t;
+
+/* Does the balance heuristic weigh what is evaluated? */
+typedef enum {
+    QL_MIS_NONE,   /* no: nothing else samples it */
+    QL_MIS_BALANCE /* yes, against ql_bsdf_sample() with BRDF */
+} ql_mis_t;
+
+/* Is it to be weighed? Only the strategies do. */
+QL_INLINE bool ql_mis_is_balance(ql_mis_t mis)
+{
+    return QL_CFG_STRATEGIES && mis == QL_MIS_BALANCE;
+}
+
+/* Is a density asked for? Only the strategies do. */
+QL_INLINE bool ql_bsdf_wants_pdf(const ql_real_t *pdf)
+{
+    return QL_CFG_STRATEGIES && pdf != NULL;
+}
 
 /* Make a surface ready.
  *
@@ -49,75 +75,86 @@ typedef struct {
  *   front     -      ql_hit_t's
  *   incoming  dir_t  direction of the ray that hit it, any length
  *
- * The mirror direction is about the shading normal, or the flat one where the
- * ray comes from below the shading normal. It may lie below the surface: then
- * it is turned up across its plane, so that no rim is black.
- *
- * Error: of the mirror direction 2^-24 rad, of its length that of ql_rsqrt_m().
- * Cost:  nothing for diffuse surfaces; else one reciprocal square root and
- *        about 25 multiplications, most to 64 bits.
+ * Cost: three pointers for a diffuse surface, else ql_mirror_begin().
  */
 void ql_bsdf_begin(ql_bsdf_t *bsdf, const ql_scene_t *scene,
         const ql_surface_t *surface, const ql_blob_material_t *material,
         bool front, ql_vec3_t incoming);
 
-/* Does it have a lobe of one direction only (mirror, glass)? */
-QL_INLINE bool ql_bsdf_has_delta(const ql_bsdf_t *bsdf)
+#if QL_GLOSS
+/* Has it a lobe that is not diffuse? */
+QL_INLINE bool ql_bsdf_is_glossy(const ql_bsdf_t *bsdf)
 {
-#if QL_CFG_MIRROR || QL_CFG_GLASS
-    return bsdf->gloss != NULL && QL_LE16(bsdf->gloss->kind) != QL_GLOSS_PHONG;
+    return bsdf->gloss != NULL;
+}
+
+/* Which one? ql_gloss_kind_t; 0 for none. */
+QL_INLINE unsigned ql_bsdf_kind(const ql_bsdf_t *bsdf)
+{
+    return bsdf->gloss != NULL ? QL_LE16(bsdf->gloss->kind) : 0u;
+}
 #else
+QL_INLINE bool ql_bsdf_is_glossy(const ql_bsdf_t *bsdf)
+{
     (void)bsdf;
     return false;
+}
+
+QL_INLINE unsigned ql_bsdf_kind(const ql_bsdf_t *bsdf)
+{
+    (void)bsdf;
+    return 0;
+}
 #endif
+
+#if QL_SPECULAR
+/* Does it have a specular lobe (mirror, glass)? */
+QL_INLINE bool ql_bsdf_has_specular(const ql_bsdf_t *bsdf)
+{
+    return ql_bsdf_is_glossy(bsdf) && ql_bsdf_kind(bsdf) != QL_GLOSS_PHONG;
 }
 
 /* Does it have any other lobe? */
-QL_INLINE bool ql_bsdf_has_spread(const ql_bsdf_t *bsdf)
+QL_INLINE bool ql_bsdf_has_nonspecular(const ql_bsdf_t *bsdf)
 {
-#if QL_CFG_MIRROR || QL_CFG_GLASS
-    return !ql_bsdf_has_delta(bsdf) ||
+    return !ql_bsdf_has_specular(bsdf) ||
            (bsdf->material->albedo[0] | bsdf->material->albedo[1] |
                    bsdf->material->albedo[2]) != 0;
+}
 #else
+QL_INLINE bool ql_bsdf_has_specular(const ql_bsdf_t *bsdf)
+{
+    (void)bsdf;
+    return false;
+}
+
+QL_INLINE bool ql_bsdf_has_nonspecular(const ql_bsdf_t *bsdf)
+{
     (void)bsdf;
     return true;
-#endif
 }
+#endif
 
-/* Is it diffuse and flat? */
-QL_INLINE bool ql_bsdf_is_plain(const ql_bsdf_t *bsdf)
+/* Is it diffuse and flat, so that ql_diffuse_direction() is all it needs? */
+QL_INLINE bool ql_bsdf_is_flat_diffuse(const ql_bsdf_t *bsdf)
 {
-#if QL_GLOSS
-    return bsdf->gloss == NULL && !ql_surface_is_smooth(bsdf->surface);
-#else
-    return !ql_surface_is_smooth(bsdf->surface);
-#endif
+    return !ql_bsdf_is_glossy(bsdf) && !ql_surface_is_smooth(bsdf->surface);
 }
-
-/* Draw a direction proportional to the cosine: all that a plain surface needs,
- * as the weight is its albedo.
- *
- *   surface  -  flat
- *   u        -  chooses the direction
- *   return   direction, ql_dir_t, above the surface; the normal where it would
- *            be below by rounding, or zero (rarer than 2^-18 in draft, 2^-26 in
- *            fine)
- */
-ql_vec3_t ql_bsdf_diffuse(const ql_surface_t *surface, ql_uniform2_t u);
 
 /* Draw a direction.
  *
  *   bsdf     -     from ql_bsdf_begin()
- *   density  -     QL_DENSITY_UNIFORM, _COSINE or _BRDF, of what is not a
- *                  delta lobe; UNIFORM needs QL_CFG_STRATEGIES
- *   delta    -     true: the delta lobe alone, with all its weight
- *   pick     uq32  chooses the lobe, of glass whether it reflects
+ *   density  -     UNIFORM, COSINE or BRDF, of what is not specular; SPECULAR
+ *                  draws the specular lobe alone, with all its weight. UNIFORM
+ *                  needs QL_CFG_STRATEGIES.
+ *   pick     uq32  chooses the lobe; of glass whether it reflects
  *   u        uq32  chooses the direction
- *   sample   -     out, if true is returned; its pdf only if asked for
- *   pdf      -     ask for it; only BRDF has one
+ *   sample   -     out, if true is returned
+ *   pdf      real  out, unless NULL, if true is returned: density of wi per
+ *                  solid angle times the chance of its lobe; 0 of a specular
+ *                  lobe. Only BRDF has one, and only QL_CFG_STRATEGIES asks.
  *   return   false if the light is lost: the direction is below the surface,
- *            the weight is zero
+ *            the weight is zero, or there is no such lobe
  *
  * Mean of the weight times what comes from there: the reflected radiance.
  *     BRDF     Kd / (1 - P) with pdf (1 - P) cos/pi, or
@@ -127,53 +164,30 @@ ql_vec3_t ql_bsdf_diffuse(const ql_surface_t *surface, ql_uniform2_t u);
  * where cos^n is that of the angle to the mirror direction and P the chance of
  * the specular lobe. A mirror's lobe is drawn with its chance whatever the
  * density; COSINE and UNIFORM divide what is left by 1 - P.
- * Glass: Fresnel's reflectance R is the chance to reflect, weight 1; what is
- * refracted has weight Tf (n1/n2)^2, as radiance does. Rounded onto the
- * surface's plane, a delta lobe's direction is bent off by four ulp.
  *
  * Exact: the weight of a surface that is diffuse only is its albedo, e = 0,
  *        unless drawn UNIFORM; so is Ks of a mirror that is nothing else.
  * Error: weights relative, 2^-26; of draft's lobes 2^-14, from the lengths of
- *        unit vectors. R within 2^-20 (draft 2^-11), but where the cosine's
- *        own error, 5e-8 (6e-5), moves it more, next to total reflection.
- * From:  Lafortune and Willems, "Using the Modified Phong Reflectance Model for
- *        Physically Based Rendering", 1994; the equations of Snell and Fresnel.
+ *        unit vectors. Of glass: see ql_glass_sample().
  */
-bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, bool delta,
-        ql_uq32_t pick, ql_uniform2_t u, ql_bsdf_sample_t *sample, bool pdf);
+bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, ql_uq32_t pick,
+        ql_uniform2_t u, ql_bsdf_sample_t *sample, ql_real_t *pdf);
 
-/* Reflect light that comes from a known direction, all but delta lobes.
+/* Scatter light that comes from a known direction, by all but specular lobes.
  *
  *   bsdf     -      from ql_bsdf_begin()
- *   w        s2.29  unit direction the light comes from, above surface->n;
- *                   asked only by a Phong lobe
- *   cosine   -      cos(theta) between w and the shading normal, above 0
- *   inverse  -      1 / density of w per solid angle (times the number of
+ *   wi       s2.29  unit direction the light comes from, above surface->n;
+ *                   only a Phong lobe looks at it
+ *   cosine   real   cos(theta) between wi and the shading normal, above 0
+ *   inv_pdf  real   1 / density of wi per solid angle (times the number of
  *                   samples drawn so); not 0
- *   mis      -      weigh each lobe by the balance heuristic against
- *                   ql_bsdf_sample() with BRDF
- *   r        -      out: f cos inverse; with mis, each lobe's part divided by
- *                   1 + inverse times the lobe's pdf as ql_bsdf_sample() has it
+ *   mis      -      whether each lobe is weighed; BALANCE needs
+ *                   QL_CFG_STRATEGIES
+ *   r        -      out: f cos inv_pdf; weighed, each lobe's part is divided
+ *                   by 1 + inv_pdf times the lobe's pdf as ql_bsdf_sample() has
+ *                   it
  */
-void ql_bsdf_reflect(const ql_bsdf_t *bsdf, ql_vec3_t w, ql_real_t cosine,
-        ql_real_t inverse, bool mis, ql_rgb_t *r);
-
-/* Unit shading normal.
- *
- *   surface  -      as above
- *   return   s2.29  its shade if it is smooth, else n / |n|
- */
-ql_vec3_t ql_bsdf_normal(const ql_surface_t *surface);
-
-/* Cosine between a direction and the shading normal.
- *
- *   surface  -      as above
- *   w        -      any integer vector, |w| < 2^30
- *   return   real   n.w of the unit shading normal n, in the units of w; 0 if
- *                   not above 0, or if w is not above surface->n
- *
- * Error: relative, 2^-26 of a flat surface; of a smooth one 2^-28 |w|.
- */
-ql_real_t ql_bsdf_cosine(const ql_surface_t *surface, ql_vec3_t w);
+void ql_bsdf_eval(const ql_bsdf_t *bsdf, ql_vec3_t wi, ql_real_t cosine,
+        ql_real_t inv_pdf, ql_mis_t mis, ql_rgb_t *r);
 
 #endif

@@ -28,6 +28,15 @@ static void set_exponent(ql_rgb_t *a, int32_t e)
     a->e = ql_real_exponent(e);
 }
 
+bool ql_rgb_load(ql_rgb_t *a, const uint32_t from[3])
+{
+    for (unsigned i = 0; i < 3; i++) {
+        a->c[i] = QL_LE32(from[i]);
+    }
+    a->e = 0;
+    return (a->c[0] | a->c[1] | a->c[2]) != 0;
+}
+
 /* a b 2^-32 half up: the product is at most 2^64 - 2^33 + 1, so this fits; of
  * two that are at least 2^31 it is at least 2^30. */
 static uint32_t half_product(uint32_t a, uint32_t b)

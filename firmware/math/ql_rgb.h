@@ -26,6 +26,16 @@ QL_INLINE uint32_t ql_rgb_most(const ql_rgb_t *a)
     return m > a->c[2] ? m : a->c[2];
 }
 
+/* Take a colour of exponent 0.
+ *
+ *   a     -      out
+ *   from  uq31   little-endian, each in [0, 1]
+ *   return  false if it is black
+ *
+ * Exact.
+ */
+bool ql_rgb_load(ql_rgb_t *a, const uint32_t from[3]);
+
 /* Multiply by a colour of exponent 0, given little-endian u1.31 in [0, 1]. Each
  * channel to nearest; 1 is exact. */
 QL_INLINE void ql_rgb_filter(ql_rgb_t *a, const uint32_t by[3])

@@ -3,9 +3,10 @@
 
 #include "render/ql_direct.h"
 
-#include "light/ql_aim.h"
+#include "light/ql_emit.h"
+#include "light/ql_emit_sky.h"
+#include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
-#include "light/ql_sky.h"
 #include "math/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
 
@@ -103,9 +104,9 @@ static void light_point(const ql_path_t *path, const ql_surface_t *surface,
         const ql_rgb_t *reflected, uint16_t light, ql_real_t weight,
         ql_uniform2_t u)
 {
-    ql_light_point_t point;
+    ql_emit_point_t point;
     ql_ray_t ray;
-    const uint64_t cos_light = ql_aim_at_point(
+    const uint64_t cos_light = ql_emit_triangle_facing(
             path->scene, light, surface->p, u, &point, &ray.direction);
     const int64_t cos_n = ql_vec_dot_normal_ptr(&ray.direction, &surface->n);
     ql_real_t g;
@@ -130,7 +131,7 @@ static void light_point(const ql_path_t *path, const ql_surface_t *surface,
 #if !POINTS_ONLY
 /* Can light come along a direction that was drawn? */
 static bool is_free(const ql_path_t *path, const ql_surface_t *surface,
-        uint16_t light, const ql_aim_t *aim)
+        uint16_t light, const ql_emit_sample_t *sample)
 {
     const uint16_t index = QL_LE16(path->scene->lights[light].triangle);
     ql_ray_t ray;
@@ -141,11 +142,11 @@ static bool is_free(const ql_path_t *path, const ql_surface_t *surface,
         ql_hit_t hit;
 
         QL_DIAG_COUNT(path->diag, closest_rays);
-        ray.direction = ql_vec_to_dir(aim->w);
+        ray.direction = ql_vec_to_dir(sample->wi);
         return !ql_bvh_closest_hit(path->scene, &ray, &hit);
     }
 #endif
-    ray.direction = ql_vec_sub(aim->to, surface->p);
+    ray.direction = ql_vec_sub(sample->to, surface->p);
     QL_DIAG_COUNT(path->diag, shadow_rays);
     return !ql_bvh_occluded_but(path->scene, &ray, index);
 }
@@ -155,19 +156,20 @@ static void light_direction(const ql_path_t *path, const ql_bsdf_t *bsdf,
         const ql_rgb_t *carried, uint16_t light, ql_real_t weight,
         ql_uniform2_t u)
 {
-    const unsigned direct = path->settings->direct;
-    ql_aim_t aim;
+    const ql_direct_t direct = (ql_direct_t)path->settings->direct;
+    ql_emit_sample_t sample;
     ql_rgb_t r;
 
-    if (!ql_aim_sample(path->scene, direct, light, bsdf->surface, u, &aim) ||
-            !is_free(path, bsdf->surface, light, &aim)) {
+    if (!ql_emit_sample(
+                path->scene, direct, light, bsdf->surface, u, &sample) ||
+            !is_free(path, bsdf->surface, light, &sample)) {
         return;
     }
-    ql_bsdf_reflect(bsdf, aim.w, aim.cosine,
-            ql_real_mul(aim.inverse, ql_real_mul(QL_REAL_TWO_PI, weight)),
-            direct == QL_DIRECT_MIS, &r);
+    ql_bsdf_eval(bsdf, sample.wi, sample.cosine,
+            ql_real_mul(sample.inv_pdf, ql_real_mul(QL_REAL_TWO_PI, weight)),
+            direct == QL_DIRECT_MIS ? QL_MIS_BALANCE : QL_MIS_NONE, &r);
     ql_rgb_mul(&r, carried);
-    add_light(path, &r, aim.emission, QL_REAL_ONE);
+    add_light(path, &r, sample.emission, QL_REAL_ONE);
 }
 
 /* Is a light drawn by its area alone, a triangle's? */
@@ -196,7 +198,7 @@ static void ask(const ql_path_t *path, uint32_t dim, const ql_bsdf_t *bsdf,
 #if POINTS_ONLY
     (void)carried;
 #else
-    if (!ql_bsdf_is_plain(bsdf) || !is_by_area(path, light)) {
+    if (!ql_bsdf_is_flat_diffuse(bsdf) || !is_by_area(path, light)) {
         light_direction(path, bsdf, carried, light, weight, u);
         return;
     }
@@ -254,7 +256,7 @@ static ql_real_t share_seen(const ql_path_t *path, const ql_sight_t *sight,
         return QL_REAL_ONE;
     }
     h = ql_real_mul(
-            sight->pdf, ql_aim_inverse(path->scene, sight->from, ray, tri, t));
+            sight->pdf, ql_emit_inv_pdf(path->scene, sight->from, ray, tri, t));
     h = ql_real_mul(h, QL_REAL_TWO_PI);
     h = ql_real_mul(h,
             ql_light_weight(path->scene, s->lights, s->light_samples, light));
@@ -294,7 +296,7 @@ void ql_direct_sky(const ql_path_t *path, const ql_sight_t *sight,
     if (path->scene->sky == NULL || sight->kind == QL_SIGHT_NONE) {
         return;
     }
-    ql_sky_radiance(path->scene, ray->direction, emission, NULL);
+    ql_emit_sky_radiance(path->scene, ray->direction, emission);
     add_light(path, carried, emission, share_seen(path, sight, ray, NULL, 0));
 #else
     (void)path;

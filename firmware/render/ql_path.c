@@ -9,6 +9,7 @@
 
 #include "render/ql_path.h"
 
+#include "material/ql_diffuse.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
 
@@ -49,10 +50,10 @@ static bool aims(const ql_path_t *path)
 /* Are two densities one on this surface? */
 static bool same_density(const ql_bsdf_t *bsdf, ql_density_t a, ql_density_t b)
 {
-    if (!ql_bsdf_has_spread(bsdf)) {
+    if (!ql_bsdf_has_nonspecular(bsdf)) {
         return true;
     }
-    if (bsdf->gloss == NULL) {
+    if (!ql_bsdf_is_glossy(bsdf)) {
         a = a == QL_DENSITY_BRDF ? QL_DENSITY_COSINE : a;
         b = b == QL_DENSITY_BRDF ? QL_DENSITY_COSINE : b;
     }
@@ -78,10 +79,10 @@ typedef struct {
     bool delta; /* it is a mirror's or glass's only way */
 } way_t;
 
-/* Draw a way from a vertex, by some density or along the delta lobe only; false
- * if the light is lost. look is 0, or 1 for the numbers of a second way. */
+/* Draw a way from a vertex by some density; false if the light is lost. look is
+ * 0, or 1 for the numbers of a second way. */
 static bool draw(const ql_path_t *path, const vertex_t *v, ql_density_t density,
-        bool delta, uint32_t look, way_t *way)
+        uint32_t look, way_t *way)
 {
     const bool shares = QL_CFG_STRATEGIES && density == QL_DENSITY_BRDF &&
                         path->settings->direct == QL_DIRECT_MIS;
@@ -90,20 +91,22 @@ static bool draw(const ql_path_t *path, const vertex_t *v, ql_density_t density,
     const uint32_t choice =
             v->dim + (look ? QL_DIM_LOOK_CHOICE : QL_DIM_CHOICE);
     ql_bsdf_sample_t sample;
+    ql_real_t pdf;
 
-    if (ql_bsdf_is_plain(&v->bsdf) && !shares &&
-            (!QL_CFG_STRATEGIES || density != QL_DENSITY_UNIFORM)) {
+    if (ql_bsdf_is_flat_diffuse(&v->bsdf) && !shares &&
+            !ql_density_is_uniform(density)) {
         way->ray.origin = v->surface.p;
-        way->ray.direction = ql_bsdf_diffuse(&v->surface, u);
+        way->ray.direction = ql_diffuse_direction(&v->surface, u);
         way->carried = v->reflected;
         way->delta = false;
         way->sight.kind = QL_SIGHT_ALL;
         return true;
     }
-    if (!ql_bsdf_sample(&v->bsdf, density, delta,
-                v->bsdf.gloss != NULL ? ql_sampler_1d(path->sampler, choice)
-                                      : 0,
-                u, &sample, shares)) {
+    if (!ql_bsdf_sample(&v->bsdf, density,
+                ql_bsdf_is_glossy(&v->bsdf)
+                        ? ql_sampler_1d(path->sampler, choice)
+                        : 0,
+                u, &sample, shares ? &pdf : NULL)) {
         return false;
     }
     way->ray.origin = v->surface.p;
@@ -113,20 +116,19 @@ static bool draw(const ql_path_t *path, const vertex_t *v, ql_density_t density,
                 path->scene, v->tri_idx, &v->surface, &way->ray.origin);
     }
 #endif
-    way->ray.direction = sample.direction;
-    if (v->bsdf.gloss == NULL &&
-            (!QL_CFG_STRATEGIES || density != QL_DENSITY_UNIFORM)) {
+    way->ray.direction = sample.wi;
+    if (!ql_bsdf_is_glossy(&v->bsdf) && !ql_density_is_uniform(density)) {
         way->carried = v->reflected; /* the weight is the albedo */
     } else {
         way->carried = *v->carried;
         ql_rgb_mul(&way->carried, &sample.weight);
     }
-    way->delta = sample.delta;
+    way->delta = sample.specular;
     way->sight.kind = QL_SIGHT_ALL;
 #if QL_CFG_STRATEGIES
-    if (shares && !sample.delta) {
+    if (shares && !sample.specular) {
         way->sight.kind = QL_SIGHT_SHARE;
-        way->sight.pdf = sample.pdf;
+        way->sight.pdf = pdf;
         way->sight.from = &v->surface;
     }
 #endif
@@ -155,7 +157,7 @@ static QL_NOINLINE void look_around(
     way_t way;
     ql_hit_t hit;
 
-    if (draw(path, v, density, false, 1, &way)) {
+    if (draw(path, v, density, 1, &way)) {
         (void)follow(path, &way, &hit);
     }
 }
@@ -206,16 +208,17 @@ static bool go_on(
     ql_density_t density = QL_CFG_INDIRECT && state->bounce < s->bounces
                                    ? (ql_density_t)s->indirect
                                    : QL_DENSITY_NONE;
-    const bool mirror = ql_bsdf_has_delta(&v->bsdf) &&
+    const bool mirror = ql_bsdf_has_specular(&v->bsdf) &&
                         (s->direct != QL_DIRECT_NONE || state->seen);
     bool apart = false;
 
     if (density == QL_DENSITY_NONE) {
         const bool spread =
-                look != QL_DENSITY_NONE && ql_bsdf_has_spread(&v->bsdf);
+                look != QL_DENSITY_NONE && ql_bsdf_has_nonspecular(&v->bsdf);
 
         state->last = true;
-        return (spread || mirror) && draw(path, v, look, !spread, 0, way);
+        return (spread || mirror) &&
+               draw(path, v, spread ? look : QL_DENSITY_SPECULAR, 0, way);
     }
 #if QL_CFG_STRATEGIES
     apart = look != QL_DENSITY_NONE && !same_density(&v->bsdf, look, density);
@@ -225,7 +228,7 @@ static bool go_on(
         density = look;
     }
 #endif
-    if (!draw(path, v, density, false, 0, way)) {
+    if (!draw(path, v, density, 0, way)) {
         return false;
     }
     if (apart || (way->delta ? !mirror : look == QL_DENSITY_NONE)) {
@@ -290,7 +293,7 @@ void ql_path_trace(const ql_path_t *path, const ql_ray_t *camera_ray)
             return;
         }
 #if QL_CFG_LIGHTS
-        if (aims(path) && ql_bsdf_has_spread(&v.bsdf)) {
+        if (aims(path) && ql_bsdf_has_nonspecular(&v.bsdf)) {
             ql_direct_light(path, v.dim, &v.bsdf, v.carried, &v.reflected);
         }
 #endif

@@ -8,7 +8,9 @@
 #include "support/ql_points.h"
 #include "support/ql_test.h"
 #include "qlux.h"
-#include "light/ql_aim.h"
+#include "light/ql_emit.h"
+#include "light/ql_emit_triangle.h"
+#include "light/ql_light.h"
 #include "render/ql_direct.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_sphere.h"
@@ -414,7 +416,7 @@ static void check_same_point(unsigned direct, uint32_t index)
     ql_sampler_t sampler;
     ql_sum_t sum = {{0, 0, 0}};
     const ql_path_t path = {&scene, &s, &sampler, &sum, &diag};
-    ql_light_point_t point;
+    ql_emit_point_t point;
     ql_surface_t surface;
     ql_uniform2_t u;
     ql_bsdf_t bsdf;
@@ -426,10 +428,10 @@ static void check_same_point(unsigned direct, uint32_t index)
     u = ql_sampler_2d(&sampler, QL_DIM_BOUNCE(0) + QL_DIM_LIGHT_POINT);
     light = ql_light_choose(&scene, QL_LIGHTS_POWER,
             ql_sampler_1d(&sampler, QL_DIM_BOUNCE(0) + QL_DIM_LIGHT_PICK));
-    CHECK(ql_aim_at_point(&scene, light, below, u, &point, &w) > 0,
+    CHECK(ql_emit_triangle_facing(&scene, light, below, u, &point, &w) > 0,
             "sample %lu is lit from below", (unsigned long)index);
     patch_at(point.q, &surface);
-    (void)ql_aim_at_point(&scene, light, surface.p, u, &point, &w);
+    (void)ql_emit_triangle_facing(&scene, light, surface.p, u, &point, &w);
     CHECK((w.x | w.y) == 0, "the point is not the surface");
     ql_bsdf_begin(&bsdf, &scene, &surface, white(), true, vec(0, 0, -1));
     ql_direct_light(&path, QL_DIM_BOUNCE(0), &bsdf, &one, &one);
@@ -533,13 +535,13 @@ static double aimed_at(const ql_surface_t *surface, uint32_t samples)
 
     ql_sampler_begin(&sampler, QL_SAMPLER_SOBOL, 31, 0, 0);
     for (uint32_t i = 0; i < samples; i++) {
-        ql_aim_t aim;
+        ql_emit_sample_t sample;
 
         ql_sampler_start(&sampler, i);
-        if (ql_aim_sample(&scene, QL_DIRECT_SOLID_ANGLE, 0, surface,
-                    ql_sampler_2d(&sampler, 0), &aim)) {
-            sum += ldexp(aim.cosine.m, aim.cosine.e) *
-                   ldexp(aim.inverse.m, aim.inverse.e) / PI;
+        if (ql_emit_sample(&scene, QL_DIRECT_SOLID_ANGLE, 0, surface,
+                    ql_sampler_2d(&sampler, 0), &sample)) {
+            sum += ldexp(sample.cosine.m, sample.cosine.e) *
+                   ldexp(sample.inv_pdf.m, sample.inv_pdf.e) / PI;
         }
     }
     return sum / samples;

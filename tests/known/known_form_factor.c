@@ -16,6 +16,7 @@
 #include "support/ql_test.h"
 #include "support/picture/film_add.h"
 #include "sample/ql_sampler.h"
+#include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
 
 #define PI  3.14159265358979323846
@@ -387,7 +388,7 @@ static const char *const fault_names[FAULTS] = {"nothing", "receiver's cosine",
         "emitter's cosine", "sign of the cosine", "square of the distance",
         "1/pi"};
 
-static double own_sample(const case_t *c, const ql_light_point_t *p,
+static double own_sample(const case_t *c, const ql_emit_point_t *p,
         const int32_t o[3], const double n[3], double lights, fault_t fault)
 {
     double w[3], r2 = 0, cosine = 0, other = 0, area = 0, x;
@@ -431,15 +432,15 @@ static double own_z(const case_t *c, fault_t fault, uint32_t samples)
     mini_open(&m, &scene);
     ql_sampler_begin(&sampler, QL_SAMPLER_RANDOM, 4, 0, 0);
     for (uint32_t i = 0; i < samples; i++) {
-        ql_light_point_t p;
+        ql_emit_point_t p;
         ql_uniform2_t u;
 
         ql_sampler_start(&sampler, i);
         u = ql_sampler_2d(&sampler, 0);
-        ql_light_point(&scene,
+        ql_emit_triangle_point(&scene,
                 ql_light_choose(
                         &scene, QL_LIGHTS_POWER, ql_sampler_1d(&sampler, 1)),
-                u.u1, u.u2, &p);
+                u, &p);
         stats_add(&moments,
                 own_sample(c, &p, origin_of(c), n, scene.light_count, fault));
     }

@@ -12,7 +12,8 @@
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "math/ql_vec_unit.h"
-#include "light/ql_aim.h"
+#include "light/ql_emit.h"
+#include "trace/ql_surface_at.h"
 #include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
@@ -224,14 +225,14 @@ static stats_moments_t aim_at_ball(int strategy, uint32_t samples)
     ql_surface_at(&scene, &ray, &hit, &surface);
     ql_sampler_begin(&sampler, QL_SAMPLER_RANDOM, 22, 0, 0);
     for (uint32_t i = 0; i < samples; i++) {
-        ql_aim_t aim;
+        ql_emit_sample_t sample;
         double x = 0;
 
         ql_sampler_start(&sampler, i);
-        if (ql_aim_sample(&scene, strategies[strategy].direct, 0, &surface,
-                    ql_sampler_2d(&sampler, 0), &aim)) {
-            x = ldexp(aim.cosine.m, aim.cosine.e) *
-                ldexp(aim.inverse.m, aim.inverse.e) / PI;
+        if (ql_emit_sample(&scene, strategies[strategy].direct, 0, &surface,
+                    ql_sampler_2d(&sampler, 0), &sample)) {
+            x = ldexp(sample.cosine.m, sample.cosine.e) *
+                ldexp(sample.inv_pdf.m, sample.inv_pdf.e) / PI;
         }
         stats_add(&moments, x);
     }

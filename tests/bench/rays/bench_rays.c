@@ -5,7 +5,7 @@
 
 #include "base/ql_settings.h"
 #include "math/ql_vec_unit.h"
-#include "light/ql_aim.h"
+#include "light/ql_emit_triangle.h"
 #include "warp/ql_warp.h"
 #include "light/ql_light.h"
 #include "trace/ql_bvh.h"
@@ -31,12 +31,12 @@ static void add_shadow(bench_batch_t *batch, const ql_scene_t *scene,
                     : ql_sampler_1d(sampler, dim + QL_DIM_LIGHT_PICK);
     const uint16_t light = ql_light_choose(scene, QL_LIGHTS_POWER, pick);
     const ql_uniform2_t u = ql_sampler_2d(sampler, dim + QL_DIM_LIGHT_POINT);
-    ql_light_point_t point;
+    ql_emit_point_t point;
     ql_ray_t ray;
 
     ray.origin = surface->p;
-    if (ql_aim_at_point(scene, light, surface->p, u, &point, &ray.direction) >
-                    0 &&
+    if (ql_emit_triangle_facing(
+                scene, light, surface->p, u, &point, &ray.direction) > 0 &&
             ql_vec_dot_normal(ray.direction, surface->n) > 0) {
         batch->shadow[batch->shadow_count++] = ray;
     }

@@ -13,6 +13,7 @@
 #include "math/ql_vec_unit.h"
 #include "warp/ql_lobe.h"
 #include "warp/ql_warp.h"
+#include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
 #include "trace/ql_surface_at.h"
 
@@ -404,7 +405,7 @@ static void round_direction(
         return;
     }
     d = ql_vec_to_dir(to_integers(*w, UNIT_Q));
-    if (ql_vec_dot_normal(d, normal) <= 0) { /* as ql_bsdf_diffuse() */
+    if (ql_vec_dot_normal(d, normal) <= 0) { /* as ql_diffuse_direction() */
         d = ql_vec_to_dir(to_integers(n, UNIT_Q));
         r->fallbacks++;
         *w = from_integers(d, 1);
@@ -422,14 +423,16 @@ static void round_light_point(void *data, const ref_surface_t *surface,
 {
     rounding_t *r = data;
     const ref_vec_t exact = ref_add(surface->p, *to);
-    ql_light_point_t point;
+    ql_emit_point_t point;
+    ql_uniform2_t u;
     ref_vec_t q;
 
     if (!is_on(r, ROUNDING_LIGHT)) {
         return;
     }
-    ql_light_point(r->scene->blob, (uint16_t)shape->light, to_uniform(u1),
-            to_uniform(u2), &point);
+    u.u1 = to_uniform(u1);
+    u.u2 = to_uniform(u2);
+    ql_emit_triangle_point(r->scene->blob, (uint16_t)shape->light, u, &point);
     if (r->scene->blob->two_sided && ref_dot(*to, shape->n) > 0) {
         point.n = to_integers(shape->n, -1);
     }

@@ -1,14 +1,12 @@
-/* ql_sky.c - light from all around: look a direction up, draw one */
+/* ql_sky_map.c - a map of the sky: look a direction up, draw one */
 /* SPDX-License-Identifier: MIT */
 
-#include "light/ql_sky.h"
+#include "light/ql_sky_map.h"
 
-#if QL_CFG_SKY
+#if QL_CFG_SKY_MAP
 
 #include "math/ql_trig.h"
 #include "sample/ql_table.h"
-
-#if QL_CFG_SKY_MAP
 
 #define TWO_PI2 QL_REAL(0x9de9e64du, -27) /* 2 pi^2 */
 
@@ -40,7 +38,7 @@ static void texel_emission(const ql_scene_t *scene, const ql_table_t *table,
 }
 
 /* 2 pi^2 sin(theta) / density; 0 for a density of 0. */
-static ql_real_t inverse_pdf(
+static ql_real_t inv_pdf_of(
         const ql_table_t *table, uint64_t mass, ql_real_t sine)
 {
     return ql_real_div(
@@ -86,8 +84,8 @@ static place_t place_of(ql_vec3_t d, ql_turn32_t rotate)
     return place;
 }
 
-static void map_radiance(const ql_scene_t *scene, ql_vec3_t d,
-        ql_uq32_t emission[3], ql_real_t *inverse)
+void ql_sky_map_radiance(const ql_scene_t *scene, ql_vec3_t d,
+        ql_uq32_t emission[3], ql_real_t *inv_pdf)
 {
     const place_t place = place_of(d, QL_LE32(scene->sky->rotate));
     const ql_table_t table = map_table(scene);
@@ -97,8 +95,8 @@ static void map_radiance(const ql_scene_t *scene, ql_vec3_t d,
         cell[i] = (uint16_t)ql_mulhi_u32(place.uv[i], table.count[i]);
     }
     texel_emission(scene, &table, cell, emission);
-    if (inverse != NULL) {
-        *inverse = inverse_pdf(&table, ql_table_mass(&table, cell),
+    if (inv_pdf != NULL) {
+        *inv_pdf = inv_pdf_of(&table, ql_table_mass(&table, cell),
                 ql_real_div(place.flat, place.length));
     }
 }
@@ -109,7 +107,7 @@ static ql_q29_t multiply(int32_t a, int32_t b)
     return (ql_q29_t)ql_asr64(ql_asr64((int64_t)a * b, 30) + 1, 1);
 }
 
-ql_real_t ql_sky_sample(const ql_scene_t *scene, ql_uq32_t u1, ql_uq32_t u2,
+ql_real_t ql_sky_map_sample(const ql_scene_t *scene, ql_uq32_t u1, ql_uq32_t u2,
         ql_vec3_t *w, ql_uq32_t emission[3])
 {
     const ql_table_t table = map_table(scene);
@@ -131,30 +129,8 @@ ql_real_t ql_sky_sample(const ql_scene_t *scene, ql_uq32_t u1, ql_uq32_t u2,
     /* the sine of ql_sincos() is not good enough near the poles: from the
      * nearer one, at the midpoint of v, so never 0 */
     v = v < 0x80000000u ? v : ~v;
-    return inverse_pdf(&table, point.mass,
+    return inv_pdf_of(&table, point.mass,
             ql_real_sin(ql_real_mul_call(QL_REAL_PI, ql_real_midpoint(v))));
 }
 
-#endif
-
-void ql_sky_radiance(const ql_scene_t *scene, ql_vec3_t d,
-        ql_uq32_t emission[3], ql_real_t *inverse)
-{
-#if QL_CFG_SKY_MAP
-    if (scene->texels != NULL) {
-        map_radiance(scene, d, emission, inverse);
-        return;
-    }
-#endif
-    (void)d;
-    for (unsigned i = 0; i < 3; i++) {
-        emission[i] = QL_LE32(scene->sky->emission[i]);
-    }
-    if (inverse != NULL) {
-        *inverse = QL_REAL_ZERO;
-    }
-}
-
-#else
-typedef int ql_sky_unused; /* C wants a declaration */
 #endif
