@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "sample/ql_alias.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/ql_crc.h"
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_points.h"
 #include "support/ql_test.h"

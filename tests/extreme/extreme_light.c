@@ -3,9 +3,10 @@
 
 #include <math.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_points.h"
+#include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "light/ql_emit.h"
@@ -15,7 +16,6 @@
 #include "warp/ql_warp.h"
 #include "trace/ql_sphere.h"
 
-#define PI       3.14159265358979323846
 #define RADIANCE 0.5
 
 static mini_scene_t m;

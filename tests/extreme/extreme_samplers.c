@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "support/picture/mini_scene.h"
+#include "support/ql_double.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "math/ql_vec_unit.h"
@@ -377,7 +378,6 @@ TEST(case_05_triangle_weights_are_above_0_and_sum_to_1_on_the_diagonal)
 
 #if QL_CFG_PHONG
 
-#define PI        3.14159265358979323846
 #define GRID_UNIT (1 << QL_POS_BITS)
 
 static mini_scene_t m;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_points.h"
 #include "support/ql_test.h"

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_test.h"
 #include "qlux.h"

@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/ql_test.h"
 
 static mini_scene_t m;

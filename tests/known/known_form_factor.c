@@ -11,15 +11,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
+#include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "support/picture/film_add.h"
 #include "sample/ql_sampler.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
 
-#define PI  3.14159265358979323846
 #define ULP (1.0 / (1 << QL_POS_BITS)) /* grid units */
 
 /* An emitter over the origin; coordinates in units of scale grid units. */

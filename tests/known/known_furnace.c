@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "math/ql_vec_unit.h"

@@ -4,25 +4,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
+#include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 
-#define PI  3.14159265358979323846
 #define SKY 0.5 /* radiance of what shines */
 
 /* What the last bit of a sum is worth, radiance units. */
 #define BIT ldexp(1, -QL_SUM_BITS)
 
 static mini_scene_t m;
-
-static const struct {
-    const char *name;
-    uint8_t direct;
-} strategies[] = {{"area", QL_DIRECT_AREA},
-        {"hemisphere", QL_DIRECT_HEMISPHERE}, {"cosine", QL_DIRECT_COSINE},
-        {"solid-angle", QL_DIRECT_SOLID_ANGLE}, {"mis", QL_DIRECT_MIS}};
-enum { AREA, HEMISPHERE, COSINE, SOLID_ANGLE, MIS, STRATEGIES };
 
 static ql_settings_t settings_of(int strategy, uint8_t bounces)
 {

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 

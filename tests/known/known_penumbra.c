@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_test.h"
 

@@ -4,26 +4,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
+#include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 
-#define PI  3.14159265358979323846
 #define ULP (1.0 / (1 << QL_POS_BITS)) /* grid units */
 
 /* Half of what the last bit of a sum is worth, radiance units. */
 #define HALF_BIT ldexp(0.5, -QL_SUM_BITS)
 
 static mini_scene_t m;
-
-static const struct {
-    const char *name;
-    uint8_t direct;
-} strategies[] = {{"area", QL_DIRECT_AREA},
-        {"hemisphere", QL_DIRECT_HEMISPHERE}, {"cosine", QL_DIRECT_COSINE},
-        {"solid-angle", QL_DIRECT_SOLID_ANGLE}, {"mis", QL_DIRECT_MIS}};
-enum { AREA, HEMISPHERE, COSINE, SOLID_ANGLE, MIS, STRATEGIES };
 
 static stats_moments_t measure(int strategy, uint32_t samples)
 {

@@ -8,7 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
+#include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "math/ql_vec_unit.h"
@@ -18,19 +19,10 @@
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
 
-#define PI       3.14159265358979323846
 #define ULP      (1.0 / (1 << QL_POS_BITS)) /* grid units */
 #define RADIANCE 0.5
 
 static mini_scene_t m;
-
-static const struct {
-    const char *name;
-    uint8_t direct;
-} strategies[] = {{"area", QL_DIRECT_AREA},
-        {"hemisphere", QL_DIRECT_HEMISPHERE}, {"cosine", QL_DIRECT_COSINE},
-        {"solid-angle", QL_DIRECT_SOLID_ANGLE}, {"mis", QL_DIRECT_MIS}};
-enum { AREA, HEMISPHERE, COSINE, SOLID_ANGLE, MIS, STRATEGIES };
 
 /* ---- One point and one sphere -------------------------------------------- */
 

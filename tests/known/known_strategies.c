@@ -10,24 +10,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
+#include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 
-#define PI       3.14159265358979323846
 #define ULP      (1.0 / (1 << QL_POS_BITS)) /* grid units */
 #define RADIANCE 0.5 /* of the emitters: sums round at 2^-24 */
 
 static mini_scene_t m;
-
-static const struct {
-    const char *name;
-    uint8_t direct;
-} strategies[] = {{"area", QL_DIRECT_AREA},
-        {"hemisphere", QL_DIRECT_HEMISPHERE}, {"cosine", QL_DIRECT_COSINE},
-        {"solid-angle", QL_DIRECT_SOLID_ANGLE}, {"mis", QL_DIRECT_MIS}};
-enum { AREA, HEMISPHERE, COSINE, SOLID_ANGLE, MIS, STRATEGIES };
 
 static ql_settings_t settings_of(int strategy, uint8_t bounces, uint32_t seed)
 {
@@ -93,18 +85,6 @@ static void square_emitter(double side, double height)
 
     emitter(one);
     emitter(two);
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double c[3])
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 static void triangle_normal(double v[3][3], double n[3])

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "support/picture/built.h"
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"

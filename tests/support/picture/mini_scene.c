@@ -11,8 +11,7 @@
 #include "base/ql_crc.h"
 #include "blob/ql_blob_open.h"
 #include "sample/ql_table.h"
-
-#define PI 3.14159265358979323846
+#include "support/ql_double.h"
 
 static void give_up(const char *what)
 {

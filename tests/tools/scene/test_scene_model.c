@@ -8,8 +8,7 @@
 #include "lib/program/cli.h"
 #include "scene/build/build_camera.h"
 #include "tools/scene/scene_worlds.h"
-
-#define PI 3.14159265358979323846
+#include "support/ql_double.h"
 
 /* ---- distributions ---- */
 

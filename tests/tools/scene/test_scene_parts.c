@@ -9,8 +9,7 @@
 #include "scene/build/build_sky.h"
 #include "scene/world/reflectance.h"
 #include "tools/scene/scene_worlds.h"
-
-#define PI 3.14159265358979323846
+#include "support/ql_double.h"
 
 /* ---- scenes made here ---- */
 

@@ -8,6 +8,13 @@
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 
+/* Every strategy of direct light that finds all of it. */
+enum { AREA, HEMISPHERE, COSINE, SOLID_ANGLE, MIS, STRATEGIES };
+extern const struct strategy {
+    const char *name;
+    uint8_t direct;
+} strategies[STRATEGIES];
+
 /* Settings of a claim: one bounce and sampler chosen, everything else fixed. */
 ql_settings_t estimate_settings(
         ql_sampler_kind_t sampler, uint8_t bounces, uint32_t seed);

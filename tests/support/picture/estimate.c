@@ -1,13 +1,17 @@
 /* estimate.c - what the core says of one pixel, sample by sample */
 /* SPDX-License-Identifier: MIT */
 
-#include "support/estimate.h"
+#include "support/picture/estimate.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "qlux.h"
+
+const struct strategy strategies[STRATEGIES] = {{"area", QL_DIRECT_AREA},
+        {"hemisphere", QL_DIRECT_HEMISPHERE}, {"cosine", QL_DIRECT_COSINE},
+        {"solid-angle", QL_DIRECT_SOLID_ANGLE}, {"mis", QL_DIRECT_MIS}};
 
 ql_settings_t estimate_settings(
         ql_sampler_kind_t sampler, uint8_t bounces, uint32_t seed)
