@@ -121,7 +121,8 @@ TEST(comparison_rejects_samples_that_repeat)
 int main(int argc, char **argv)
 {
     size_t size;
-    void *blob = picture_load(argc > 2 ? argv[2] : "build/cornell.qlb", &size);
+    void *blob = picture_load(
+            argc > 2 ? argv[2] : picture_built("cornell.qlb"), &size);
 
     TEST_BEGIN("stat/convergence", argc, argv);
     if (blob == NULL || ql_blob_open(&scene, blob, size) != QL_OK) {

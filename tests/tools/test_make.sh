@@ -142,6 +142,7 @@ gates() {
 }
 {
     gates '' 'STRATEGIES=0 ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17'
+    ! grep -q QL_APP_ERROR "$work/said" || echo 'an error that none asked for'
     gates 'DIRECT=none LIGHT_SAMPLES=1 LIGHTS=power' 'STRATEGIES=0'
     gates 'DIRECT=mis' 'STRATEGIES=1'
     gates 'LIGHT_SAMPLES=2' 'STRATEGIES=1'

@@ -226,7 +226,7 @@ function define(name, text)
 function print_gates(    settings, key, member, k, need, formats)
 {
     for (k = 1; k <= n; k++)
-        if (option[name[k]] ~ /^--/)
+        if (option[name[k]] ~ /^--/ && name[k] in value)
             settings[tolower(name[k])] = gates_value(in_c(name[k]))
     member = gates_need("STRATEGIES", settings)
     key = "STRATEGIES" in value ? value["STRATEGIES"] + 0 : member != ""

@@ -143,9 +143,9 @@ static void open_case(case_t *c, const char *path)
 
 static void open_cases(void)
 {
-    open_case(cases + CORNELL, "build/cornell.qlb");
+    open_case(cases + CORNELL, picture_built("cornell.qlb"));
     if (fail == NULL) {
-        open_case(cases + MESH, "build/mesh.qlb");
+        open_case(cases + MESH, picture_built("mesh.qlb"));
     }
 }
 

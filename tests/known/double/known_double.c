@@ -197,7 +197,7 @@ TEST(comparison_rejects_a_camera_off_by_a_pixel)
 int main(int argc, char **argv)
 {
     TEST_BEGIN("known/double", argc, argv);
-    render_core(argc > 3 ? argv[2] : "build/cornell.qlb");
+    render_core(argc > 3 ? argv[2] : picture_built("cornell.qlb"));
     render_reference(argc > 3 ? argv[3] : "tests/scenes/cornell.obj");
     RUN(cornell_means_agree_within_half_a_percent);
     RUN(cornell_agrees_within_relative_mse_of_0_01);

@@ -8,6 +8,16 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+const char *picture_built(const char *name)
+{
+    static char path[256];
+    const char *folder = getenv("BUILD");
+
+    (void)snprintf(path, sizeof path, "%s/%s",
+            folder != NULL && folder[0] != '\0' ? folder : "build", name);
+    return path;
+}
+
 void *picture_load(const char *path, size_t *size)
 {
     FILE *file = fopen(path, "rb");
@@ -73,16 +83,15 @@ const char *picture_fail(const char *name, const double *actual,
     for (size_t i = 0; i < 3 * count; i++) {
         white += 2 * wanted[i] / (double)(3 * count);
     }
-    (void)mkdir("build", 0777); /* there already, or fopen() tells */
-    (void)mkdir("build/fail", 0777);
+    (void)mkdir(picture_built("fail"), 0777);
     for (int kind = 0; kind < 2; kind++) {
         FILE *file;
 
-        (void)snprintf(
-                path, sizeof path, "build/fail/%s_%s.ppm", name, kinds[kind]);
+        (void)snprintf(path, sizeof path, "%s/%s_%s.ppm", picture_built("fail"),
+                name, kinds[kind]);
         file = fopen(path, "wb");
         if (file == NULL) {
-            return "(build/fail cannot be written)";
+            return "(its folder fail/ cannot be written)";
         }
         (void)fprintf(file, "P6\n%u %u\n255\n", width, height);
         for (size_t i = 0; i < count; i++) {

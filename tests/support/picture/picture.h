@@ -13,10 +13,14 @@
  * Aligned as a blob must be. */
 void *picture_load(const char *path, size_t *size);
 
+/* The path of a file that make builds: in the folder that the environment calls
+ * BUILD, or in build. Valid until the next call. */
+const char *picture_built(const char *name);
+
 /* One radiance unit of a scene, in the units of its Ke. */
 double picture_radiance_unit(const ql_scene_t *scene);
 
-/* Leave build/fail/<name>_actual.ppm and <name>_diff.ppm: the picture with a
+/* Leave <name>_actual.ppm and <name>_diff.ppm in build/fail: the picture with a
  * gamma of 2.2, and red where it is too bright, blue where too dark.
  *
  *   name           -   of the test
