@@ -1,9 +1,9 @@
 /* ql_hal.h - what a board must provide: nine functions */
 /* SPDX-License-Identifier: MIT */
 
-/* The application (firmware/app/ql_app.c) calls these; the core never does. A
- * board is a folder under hal/boards/ with board.c, board.h, board.mk and a
- * README; hal/template/ is a board that does nothing. See hal/README.md. */
+/* The application (firmware/app/) calls these; the core never does. A board is
+ * a folder under hal/boards/ with board.c, board.h, board.mk and a README;
+ * hal/template/ is a board that does nothing. See hal/README.md. */
 
 #ifndef QL_HAL_H
 #define QL_HAL_H

@@ -1,8 +1,8 @@
 /* ql_main.c - main() of every board: one picture, its settings from make */
 /* SPDX-License-Identifier: MIT */
 
-#include "board.h"
 #include "app/ql_app.h"
+#include "board.h"
 #include "ql_hal.h"
 
 /* QL_APP_WIDTH, QL_APP_HEIGHT: px. QL_APP_SPP: samples a pixel. QL_APP_SEED:
@@ -63,18 +63,23 @@ int main(void)
     static uint8_t work[QL_WORK_BYTES(
             QL_APP_WIDTH, QL_PORT_PANEL_WIDTH, QL_PORT_PANEL_FORMAT)];
     static const ql_app_t app = {
-            {QL_APP_WIDTH, QL_APP_HEIGHT, QL_APP_SPP, QL_APP_SEED,
-                    QL_APP_BOUNCES, QL_APP_SAMPLER, QL_APP_DIRECT,
-                    QL_APP_INDIRECT, QL_APP_LIGHTS, QL_APP_LIGHT_SAMPLES,
-                    QL_APP_ROULETTE,
-#if QL_CFG_ADAPTIVE
-                    QL_ERROR_Q16(QL_APP_ERROR)
-#endif
-            },
-            QL_APP_INTERLACE,
-            work,
-            sizeof work,
-            QL_PORT_TICK_HZ,
+            .settings = {.width = QL_APP_WIDTH,
+                    .height = QL_APP_HEIGHT,
+                    .spp = QL_APP_SPP,
+                    .seed = QL_APP_SEED,
+                    .bounces = QL_APP_BOUNCES,
+                    .sampler = QL_APP_SAMPLER,
+                    .direct = QL_APP_DIRECT,
+                    .indirect = QL_APP_INDIRECT,
+                    .lights = QL_APP_LIGHTS,
+                    .light_samples = QL_APP_LIGHT_SAMPLES,
+                    .roulette = QL_APP_ROULETTE,
+                    QL_IF_BUILT(QL_CFG_ADAPTIVE,
+                            .error_q16 = QL_ERROR_Q16(QL_APP_ERROR))},
+            .interlace = QL_APP_INTERLACE,
+            .work = work,
+            .work_bytes = sizeof work,
+            .tick_hz = QL_PORT_TICK_HZ,
     };
 
     ql_hal_exit(ql_app_run(&app));

@@ -3,138 +3,46 @@
 
 #include "app/ql_app.h"
 
-#if QL_CFG_PANEL
-/* Where the picture lies on the panel, in one dimension: the picture's pixel
- * crop is the first one shown, at the panel's pixel pad. One of them is 0. */
-typedef struct {
-    uint16_t crop;
-    uint16_t pad;
-} place_t;
-#endif
-
 /* What a run carries from line to line. */
 typedef struct {
     ql_render_t render;
+    ql_panel_t panel;
     uint8_t *frame;
     uint32_t ticks;
-#if QL_CFG_PANEL
-    ql_hal_display_t panel;
-    uint8_t *panel_pixels;     /* the picture's line in the panel's format */
-    const uint8_t *panel_line; /* what the panel shows of it */
-    place_t x, y;
-#endif
 } run_t;
 
-#if QL_CFG_PANEL
-/* Centre. Even numbers keep pairs of pixels together where two share a byte. */
-static place_t centre(uint16_t picture, uint16_t panel)
-{
-    place_t place = {0, 0};
-
-    if (picture > panel) {
-        place.crop = (uint16_t)((picture - panel) / 2u & ~1u);
-    } else {
-        place.pad = (uint16_t)((panel - picture) / 2u & ~1u);
-    }
-    return place;
-}
-
-/* Give the panel its part of the working memory, and blank it. */
-static ql_status_t panel_begin(run_t *run, const ql_app_t *app)
-{
-    const uint16_t width = run->render.settings.width;
-    const size_t frame_bytes = QL_APP_FRAME_BYTES(width);
-    ql_status_t status = QL_OK;
-
-    ql_hal_display_info(&run->panel);
-    if (app->work_bytes <
-            QL_WORK_BYTES(width, run->panel.width, run->panel.format)) {
-        return QL_ERR_SETTINGS;
-    }
-    if (run->panel.width == 0) {
-        return QL_OK;
-    }
-    if ((QL_CFG_FORMATS >> run->panel.format & 1) == 0) {
-        return QL_ERR_DISPLAY;
-    }
-    run->x = centre(width, run->panel.width);
-    run->y = centre(run->render.settings.height, run->panel.height);
-    run->panel_pixels = run->frame + frame_bytes +
-                        QL_LINE_BYTES(run->x.pad, run->panel.format);
-    run->panel_line = run->frame + frame_bytes +
-                      QL_LINE_BYTES(run->x.crop, run->panel.format);
-    for (uint16_t row = 0; row < run->panel.height && status == QL_OK; row++) {
-        status = ql_hal_display_write(row, run->frame + frame_bytes);
-    }
-    return status;
-}
-
-/* Show line y on the panel, and in place of the count - 1 lines below it, which
- * are still to come. */
-static ql_status_t show(const run_t *run, uint16_t y, uint16_t count)
-{
-    ql_status_t status = QL_OK;
-    uint16_t row;
-
-    if (run->panel.width == 0) {
-        return QL_OK;
-    }
-    for (; count > 0 && status == QL_OK; count--, y++) {
-        if (y < run->y.crop || y >= run->render.settings.height) {
-            continue;
-        }
-        row = (uint16_t)(y - run->y.crop + run->y.pad);
-        if (row < run->panel.height) {
-            status = ql_hal_display_write(row, run->panel_line);
-        }
-    }
-    return status;
-}
-#endif
-
-/* Divide the working memory. */
+/* Divide the working memory: a frame, then what the panel needs. */
 static ql_status_t set_up(run_t *run, const ql_app_t *app)
 {
-    if ((QL_CFG_FORMATS >> QL_FORMAT_RGB888 & 1) == 0) {
+    const ql_settings_t *settings = &run->render.settings;
+    const size_t frame_bytes = QL_APP_FRAME_BYTES(settings->width);
+
+    if ((QL_CFG_FORMATS >> QL_FORMAT_RGB888 & 1) == 0 ||
+            app->work_bytes < frame_bytes) {
         return QL_ERR_SETTINGS;
     }
-#if QL_CFG_PANEL
-    return panel_begin(run, app);
-#else
-    return app->work_bytes < QL_APP_FRAME_BYTES(run->render.settings.width)
-                   ? QL_ERR_SETTINGS
-                   : QL_OK;
-#endif
+    return ql_panel_begin(&run->panel, settings, run->frame + frame_bytes,
+            app->work_bytes - frame_bytes);
 }
 
+/* Render line y, show it, also in place of the rows - 1 lines below it, which
+ * are still to come, and send it. */
 static ql_status_t render_line(run_t *run, uint16_t y, uint16_t rows)
 {
     const uint16_t bytes = (uint16_t)QL_LINE_BYTES(
             run->render.settings.width, QL_FORMAT_RGB888);
     const uint32_t before = ql_hal_ticks();
-    const ql_output_t outputs[] = {
-        {QL_FORMAT_RGB888, run->frame + QL_STREAM_PIXELS},
-#if QL_CFG_PANEL
-        {run->panel.format, run->panel_pixels},
-#endif
-    };
-#if QL_CFG_PANEL
-    const uint8_t count = run->panel.width > 0 ? 2 : 1;
+    ql_output_t outputs[1 + QL_CFG_PANEL] = {
+            {QL_FORMAT_RGB888, run->frame + QL_STREAM_PIXELS}};
+    const uint8_t shown = ql_panel_output(&run->panel, outputs + 1);
     ql_status_t status;
-#else
-    const uint8_t count = 1;
-#endif
 
-    ql_render_line(&run->render, y, outputs, count);
+    ql_render_line(&run->render, y, outputs, (uint8_t)(1 + shown));
     run->ticks += ql_hal_ticks() - before;
-#if QL_CFG_PANEL
-    status = show(run, y, rows);
+    status = ql_panel_line(&run->panel, y, rows);
     if (status != QL_OK) {
         return status;
     }
-#else
-    (void)rows;
-#endif
     return ql_hal_serial_write(
             run->frame, ql_stream_line(run->frame, y, bytes));
 }
@@ -168,8 +76,8 @@ static bool is_power_of_two(uint8_t x)
     return x != 0 && (x & (x - 1u)) == 0;
 }
 
-#if QL_CFG_DIAG
 /* Say which feature is missing: a line of text between two frames. */
+#if QL_CFG_DIAG
 static void report_missing(const void *blob)
 {
     static const char begin[] = "qlux: this build lacks ";
@@ -186,6 +94,11 @@ static void report_missing(const void *blob)
         (void)(ql_hal_serial_write((const uint8_t *)"\n", 1) == QL_OK);
     }
 }
+#else
+static void report_missing(const void *blob)
+{
+    (void)blob;
+}
 #endif
 
 static ql_status_t render_picture(run_t *run, const ql_app_t *app)
@@ -197,11 +110,9 @@ static ql_status_t render_picture(run_t *run, const ql_app_t *app)
 
     ql_hal_scene_blob(&blob, &size);
     status = ql_blob_open(&scene, blob, size);
-#if QL_CFG_DIAG
     if (status == QL_ERR_FEATURE) {
         report_missing(blob);
     }
-#endif
     if (status == QL_OK) {
         status = ql_render_init(&run->render, &scene, &app->settings);
     }
@@ -234,9 +145,9 @@ ql_status_t ql_app_run(const ql_app_t *app)
         end.status = render_picture(&run, app);
     }
 
-#if QL_CFG_DIAG
-    end.diag = run.render.diag;
-#endif
+    if (QL_CFG_DIAG) {
+        end.diag = run.render.diag;
+    }
     end.ticks = run.ticks;
     end.tick_hz = app->tick_hz;
     if (ql_hal_serial_write(run.frame, ql_stream_end(run.frame, &end)) !=

@@ -3,14 +3,14 @@
 
 /* The one place where core and HAL meet. A picture leaves as the frames of
  * ql_stream.h, RGB888, and at the same time goes to the board's panel if it has
- * one. A picture larger than the panel is cropped at its middle, a smaller one
- * is centred on black; pixels are never scaled. */
+ * one (ql_panel.h). */
 
 #ifndef QL_APP_H
 #define QL_APP_H
 
-#include "ql_hal.h"
+#include "app/ql_panel.h"
 #include "app/ql_stream.h"
+#include "ql_hal.h"
 #include "qlux.h"
 
 #define QL_APP_MAX(a, b) ((a) > (b) ? (a) : (b))
@@ -19,9 +19,7 @@
  * panel_width is 0 without a panel. Constant when its arguments are. */
 #define QL_WORK_BYTES(width, panel_width, panel_format)                        \
     (QL_APP_FRAME_BYTES(width) +                                               \
-            ((panel_width) > 0 ? QL_LINE_BYTES(QL_APP_MAX(width, panel_width), \
-                                         panel_format)                         \
-                               : 0u))
+            QL_PANEL_BYTES(width, panel_width, panel_format))
 
 /* The part of it that holds a frame; the panel's line follows. */
 #define QL_APP_FRAME_BYTES(width)                                              \
