@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "qlux.h"
+#include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
 #include "sim/sim_render.h"
 
@@ -16,49 +17,6 @@
 #define PROGRAM   "qlux-sim"
 #define PRECISION "fine"
 #endif
-
-/* Where in a blob a status was found, as far as it tells. */
-static long blob_offset(ql_status_t status)
-{
-    switch (status) {
-    case QL_ERR_MAGIC:
-        return offsetof(ql_blob_header_t, magic);
-    case QL_ERR_VERSION:
-        return offsetof(ql_blob_header_t, version);
-    case QL_ERR_TRUNCATED:
-        return offsetof(ql_blob_header_t, size_bytes);
-    case QL_ERR_CHECKSUM:
-        return offsetof(ql_blob_header_t, crc32);
-    case QL_ERR_FEATURE:
-        return offsetof(ql_blob_header_t, features);
-    case QL_ERR_CAPACITY:
-        return offsetof(ql_blob_header_t, depth);
-    default:
-        return -1;
-    }
-}
-
-/* The blob is returned to be freed after use. */
-static void *open_scene(ql_scene_t *scene, const char *path)
-{
-    size_t size;
-    void *blob = cli_read(path, &size);
-    const ql_status_t status = ql_blob_open(scene, blob, size);
-    const long offset = blob_offset(status);
-    char where[32] = "";
-
-    if (offset >= 0) {
-        snprintf(where, sizeof where, "byte %ld: ", offset);
-    }
-    if (status == QL_ERR_FEATURE) {
-        cli_fail(CLI_INPUT, "%s: %s%s: %s", path, where, ql_status_text(status),
-                ql_blob_missing(blob));
-    }
-    if (status != QL_OK) {
-        cli_fail(CLI_INPUT, "%s: %s%s", path, where, ql_status_text(status));
-    }
-    return blob;
-}
 
 /* What parts must have in common with this one. */
 static void describe(sums_t *sums, const ql_render_t *render)
@@ -204,7 +162,7 @@ int main(int argc, char **argv)
 
     cli_begin(PROGRAM);
     render_options_parse(&options, argc, argv);
-    blob = open_scene(&scene, options.scene);
+    blob = open_blob(&scene, options.scene);
     status = ql_render_init(&render, &scene, &options.settings);
     if (status != QL_OK) {
         cli_fail(CLI_USAGE, "%s", ql_status_text(status));

@@ -8,6 +8,7 @@
 
 #include "qlux.h"
 #include "ref/ref.h"
+#include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
 #include "lib/render/rows.h"
 
@@ -68,47 +69,6 @@ static void options_of_its_own(int argc, char **argv)
     if (argc > 1 && !has_picture) {
         cli_fail(CLI_USAGE, "give -o (see --help)");
     }
-}
-
-/* Where in a blob a status was found, as far as it tells. */
-static long blob_offset(ql_status_t status)
-{
-    static const struct {
-        ql_status_t status;
-        long offset;
-    } places[] = {{QL_ERR_MAGIC, offsetof(ql_blob_header_t, magic)},
-            {QL_ERR_VERSION, offsetof(ql_blob_header_t, version)},
-            {QL_ERR_TRUNCATED, offsetof(ql_blob_header_t, size_bytes)},
-            {QL_ERR_CHECKSUM, offsetof(ql_blob_header_t, crc32)},
-            {QL_ERR_FEATURE, offsetof(ql_blob_header_t, features)},
-            {QL_ERR_CAPACITY, offsetof(ql_blob_header_t, depth)}};
-
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        if (places[i].status == status) {
-            return places[i].offset;
-        }
-    }
-    return -1;
-}
-
-/* The blob is returned to be freed after use. */
-static void *open_scene(ql_scene_t *scene, const char *path)
-{
-    size_t size;
-    void *blob = cli_read(path, &size);
-    const ql_status_t status = ql_blob_open(scene, blob, size);
-    const long offset = blob_offset(status);
-    char where[32] = "";
-
-    if (offset >= 0) {
-        snprintf(where, sizeof where, "byte %ld: ", offset);
-    }
-    if (status != QL_OK) {
-        cli_fail(CLI_INPUT, "%s: %s%s%s%s", path, where, ql_status_text(status),
-                status == QL_ERR_FEATURE ? ": " : "",
-                status == QL_ERR_FEATURE ? ql_blob_missing(blob) : "");
-    }
-    return blob;
 }
 
 static void draw(void *shared, void *own, uint16_t x, uint16_t y,
@@ -236,7 +196,7 @@ int main(int argc, char **argv)
     cli_begin("qlux-ref");
     options_of_its_own(argc, argv);
     render_options_parse(&options, argc, argv);
-    bytes = open_scene(&blob, options.scene);
+    bytes = open_blob(&blob, options.scene);
     resolve(&options, &blob);
     ref_scene_init(&scene, &blob);
     memset(&job, 0, sizeof job);

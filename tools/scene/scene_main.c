@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "lib/program/cli.h"
+#include "lib/render/open_blob.h"
 #include "scene/blob/dump_blob.h"
 #include "scene/blob/model.h"
 #include "scene/blob/parse_dump.h"
@@ -158,8 +159,11 @@ static void write_output(const model_t *model, const options_t *options)
     size_t size;
     uint8_t *blob = write_blob(model, &size);
     cli_out_t out, features;
+    ql_scene_t scene;
+    char name[512];
 
-    check_blob(blob, size, options->input);
+    snprintf(name, sizeof name, "the blob of %s", options->input);
+    open_blob_bytes(&scene, blob, size, name);
     cli_out_open(&out, options->output);
     (void)fwrite(blob, 1, size, out.file);
     if (options->features != NULL) {

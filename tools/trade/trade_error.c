@@ -12,6 +12,7 @@
 
 #include "lib/image/image_file.h"
 #include "qlux.h"
+#include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
 
 static const char help[] =
@@ -159,7 +160,6 @@ int main(int argc, char **argv)
     ql_render_t render;
     ql_scene_t scene;
     void *blob;
-    size_t size;
 
     cli_begin("trade-error");
     if (argc == 2 && strcmp(argv[1], "--help") == 0) {
@@ -171,11 +171,9 @@ int main(int argc, char **argv)
                             "--help");
     }
     parse(&options, argc, argv);
-    blob = cli_read(options.scene, &size);
-    if (ql_blob_open(&scene, blob, size) != QL_OK ||
-            ql_render_init(&render, &scene, &options.settings) != QL_OK) {
-        cli_fail(CLI_INPUT, "%s: not a scene that this core renders so",
-                options.scene);
+    blob = open_blob(&scene, options.scene);
+    if (ql_render_init(&render, &scene, &options.settings) != QL_OK) {
+        cli_fail(CLI_USAGE, "a setting is not built into this core");
     }
     read_reference(&m.a, argv[1], &render.settings);
     read_reference(&m.b, argv[2], &render.settings);

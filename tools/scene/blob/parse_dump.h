@@ -16,7 +16,7 @@ bool is_dump(const text_t *text);
  *   text   -  open and at its start; is_dump()
  *
  * Fails: exit 2 with file and line of a number that is missing or does not fit
- *        its field. Whether the blob makes sense, check_blob() says.
+ *        its field. Whether the blob makes sense, ql_blob_open() says.
  */
 void parse_dump(model_t *model, text_t *text);
 

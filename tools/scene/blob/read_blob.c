@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "blob/ql_blob_open.h"
 #include "lib/program/cli.h"
+#include "lib/render/open_blob.h"
 #include "scene/blob/write_blob.h"
 
 /* Turn structs of a blob into those of this machine. */
@@ -55,23 +55,14 @@ static void get_tables(model_t *model, const uint8_t *blob)
     model_set_tables(model, tables);
 }
 
-void check_blob(const void *blob, size_t size, const char *path)
-{
-    ql_scene_t scene;
-    const ql_status_t status = ql_blob_open(&scene, blob, size);
-
-    if (status != QL_OK) {
-        cli_fail(CLI_INPUT, "%s: %s", path, ql_status_text(status));
-    }
-}
-
 void read_blob(model_t *model, const char *path)
 {
     size_t size, written;
+    ql_scene_t scene;
     uint8_t *blob = cli_read(path, &size);
     uint8_t *again;
 
-    check_blob(blob, size, path);
+    open_blob_bytes(&scene, blob, size, path);
     memset(model, 0, sizeof *model);
     decode(&model->header, &blob_header.entry, blob, 1);
     get_tables(model, blob);
