@@ -18,6 +18,24 @@
 #define PRECISION "fine"
 #endif
 
+static const option_section_t sections[] = {{NULL, render_options_scene},
+        {NULL, render_options_picture},
+        {"The picture, the same on a board:", render_options_settings},
+        {NULL, render_options_error},
+        {"Parts of it, to be added up:", render_options_part},
+        {NULL, render_options_sums}, {"At work:", render_options_run},
+        {NULL, NULL}};
+
+static const program_t program = {.name = PROGRAM,
+        .about = "render a scene on this PC, the bits that a board renders "
+                 "in " PRECISION " precision",
+        .usage = "SCENE.qlb -o OUT.{ppm,pfm,png} [options]",
+        .sections = sections,
+        .notes = "Neither threads nor rows nor samples change a bit of what is "
+                 "summed.",
+        .example =
+                PROGRAM " cornell.qlb -o cornell.png --size 256x256 --spp 64"};
+
 /* What parts must have in common with this one. */
 static void describe(sums_t *sums, const ql_render_t *render)
 {
@@ -160,12 +178,14 @@ int main(int argc, char **argv)
     ql_status_t status;
     void *blob;
 
-    cli_begin(PROGRAM);
-    render_options_parse(&options, argc, argv);
+    render_options_parse(&program, argc, argv, &options);
+    if (options.picture == NULL && options.save == NULL) {
+        options_fail("missing -o FILE or --save-sums FILE");
+    }
     blob = open_blob(&scene, options.scene);
     status = ql_render_init(&render, &scene, &options.settings);
     if (status != QL_OK) {
-        cli_fail(CLI_USAGE, "%s", ql_status_text(status));
+        options_fail("%s", ql_status_text(status));
     }
     run(&options, &render);
     free(blob);

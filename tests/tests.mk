@@ -81,6 +81,7 @@ jobs_gates := configs/triples|tests/configs/test_gates.sh --triples; \
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
 jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/sim|tests/tools/test_sim.sh; \
+    tools/options|tests/tools/lib/test_options.sh; \
     tools/open_blob|tests/tools/lib/test_open_blob.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/scene/test_scene.sh; \

@@ -42,8 +42,7 @@ printf 'P6\n1 2\n255\n\0\377\0\0\0\377' >tall.ppm
 printf 'PF\n1 1\n-1.0\n\0\0\200\077\0\0\200\077\0\0\0\100' >linear.pfm
 printf 'P6\n2 2\n255\n\377' >cut.ppm
 
-expect help_has_an_example 0 'Example:' "$sheet" --help
-expect no_output_is_code_1 1 'give -o' "$sheet" a=red.ppm
+expect no_output_is_code_1 1 'missing -o FILE' "$sheet" a=red.ppm
 expect no_picture_is_code_1 1 'LABEL=IN' "$sheet" -o s.ppm
 expect a_picture_without_label_is_code_1 1 "'red.ppm': expected LABEL=IN" \
     "$sheet" -o s.ppm red.ppm

@@ -30,11 +30,8 @@ table() {
 
 table good.csv a,base,0.5,1000 a,base,0.09,9000 b,direct,0.08,4000 \
     c,tables,0.02,50000 b,direct,0.02,60000
-expect help_has_an_example 0 'Example:' "$trade" --help
-expect no_table_is_code_1 1 'name a table' "$trade"
-expect two_tables_are_code_1 1 'expected one table' "$trade" good.csv good.csv
-expect an_unknown_option_is_code_1 1 "'--bad'" "$trade" --bad
-expect a_linear_drawing_is_code_1 1 'expected .svg' "$trade" good.csv -o t.pfm
+expect no_table_is_code_1 1 'missing TRADE.csv' "$trade"
+expect a_linear_drawing_is_code_1 1 'ends in .svg' "$trade" good.csv -o t.pfm
 expect a_missing_table_is_code_3 3 'none.csv' "$trade" none.csv
 echo 'scene,core' >bad.csv
 expect another_header_is_code_2 2 'bad.csv:1: expected scene,core' \

@@ -7,43 +7,7 @@
 
 #include "diff/diff_picture.h"
 #include "lib/image/image_file.h"
-
-static const char help[] =
-        "qlux-diff: two pictures to a few numbers and a picture\n"
-        "\n"
-        "  qlux-diff A B [options]        B is the reference\n"
-        "\n"
-        "  --max-relmse X   exit 1 if relmse is above X\n"
-        "  --max-bias X     exit 1 if |bias| is above X\n"
-        "  -o FILE          the difference, .ppm or .png: red where A is\n"
-        "                   larger, blue where smaller, white where equal,\n"
-        "                   black where it is no number; a scale below it\n"
-        "  --scale X        full colour for a difference of X; else such that\n"
-        "                   99.9 % of the pixels fit, rounded up to 1, 2 or 5\n"
-        "                   times a power of ten\n"
-        "  --relative       draw (a - b) / sqrt(b^2 + 0.01 mean(b)^2)\n"
-        "  --zoom N         draw a pixel as N x N, 1 to 16                1\n"
-        "\n"
-        "Reads PPM, PNG (display values 0 to 255) and PFM (linear radiance).\n"
-        "Prints, each mean over all pixels and channels:\n"
-        "  identical  yes or no: every value has the same bits\n"
-        "  rmse       sqrt(mean((a - b)^2))\n"
-        "  relmse     mean((a - b)^2 / (b^2 + 0.01 mean(b)^2)); the relative\n"
-        "             MSE of Rousselle, Knaus and Zwicker (2011), its epsilon\n"
-        "             of 0.01 for a picture of mean 1\n"
-        "  bias       (mean(a) - mean(b)) / mean(b)\n"
-        "  psnr       20 log10(peak / rmse) dB; the peak is 255, or the\n"
-        "             largest b of a PFM\n"
-        "  max        largest |a - b|\n"
-        "and with -o, of differences that are means of the three channels:\n"
-        "  scale      the largest that is drawn\n"
-        "  clipped    pixels beyond it, drawn in full colour\n"
-        "  undefined  pixels whose difference is no number\n"
-        "Exit: 0 done, 1 usage or above a limit, 2 sizes differ or bad\n"
-        "picture, 3 cannot read or write\n"
-        "\n"
-        "Example:\n"
-        "  qlux-diff box.pfm box-ref.pfm --max-relmse 1e-6 -o diff.png\n";
+#include "lib/program/options.h"
 
 typedef struct {
     const char *path[2];
@@ -52,6 +16,61 @@ typedef struct {
     double bias_max;
     diff_style_t style;
 } options_t;
+
+#define AT(field) OPTION_FIELD(options_t, field)
+
+static const char *const pictures[] = {".ppm", ".png", NULL};
+
+static const option_t comparing[] = {
+        {"A", OPTION_TEXT, AT(path[0]), .required = true},
+        {"B", OPTION_TEXT, AT(path[1]), .required = true},
+        {"--max-relmse X", OPTION_REAL, AT(relmse_max), .max = HUGE_VAL,
+                .help = "exit 1 if relmse is above X"},
+        {"--max-bias X", OPTION_REAL, AT(bias_max), .max = HUGE_VAL,
+                .help = "exit 1 if |bias| is above X"},
+        OPTION_END};
+
+static const option_t drawing[] = {
+        {"-o FILE", OPTION_FILE, AT(picture), .words = pictures,
+                .help = "the difference, .ppm or .png: red where A is larger, "
+                        "blue where smaller, white where equal, black where it "
+                        "is no number; a scale below it"},
+        {"--scale X", OPTION_POSITIVE, AT(style.scale),
+                .help = "full colour for a difference of X; else such that "
+                        "99.9 % of the pixels fit, rounded up to 1, 2 or 5 "
+                        "times a power of ten"},
+        {"--relative", OPTION_FLAG, AT(style.relative),
+                .help = "draw (a - b) / sqrt(b^2 + 0.01 mean(b)^2)"},
+        {"--zoom N", OPTION_NUMBER, AT(style.zoom), .min = 1,
+                .max = DIFF_ZOOM_MAX, .help = "draw a pixel as N x N"},
+        OPTION_END};
+
+static const option_section_t sections[] = {
+        {NULL, comparing}, {"The picture:", drawing}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-diff",
+        .about = "two pictures to a few numbers and a picture",
+        .usage = "A B [options]\tB is the reference",
+        .sections = sections,
+        .notes = "Reads PPM, PNG (display values 0 to 255) and PFM (linear "
+                 "radiance). Prints, each mean over all pixels and channels:\n"
+                 "identical\tyes or no: every value has the same bits\n"
+                 "rmse\tsqrt(mean((a - b)^2))\n"
+                 "relmse\tmean((a - b)^2 / (b^2 + 0.01 mean(b)^2)); the "
+                 "relative MSE of Rousselle, Knaus and Zwicker (2011), its "
+                 "epsilon of 0.01 for a picture of mean 1\n"
+                 "bias\t(mean(a) - mean(b)) / mean(b)\n"
+                 "psnr\t20 log10(peak / rmse) dB; the peak is 255, or the "
+                 "largest b of a PFM\n"
+                 "max\tlargest |a - b|\n"
+                 "and with -o, of differences that are means of the three "
+                 "channels:\n"
+                 "scale\tthe largest that is drawn\n"
+                 "clipped\tpixels beyond it, drawn in full colour\n"
+                 "undefined\tpixels whose difference is no number",
+        .exits = "1 also above a limit",
+        .example = "qlux-diff box.pfm box-ref.pfm --max-relmse 1e-6 "
+                   "-o diff.png"};
 
 typedef struct {
     bool identical;
@@ -62,78 +81,15 @@ typedef struct {
     double max;
 } numbers_t;
 
-static double take_limit(const char *option, const char *text)
+/* An option for the picture needs one. */
+static void check_options(const options_t *o)
 {
-    char *end = NULL;
-    double value;
+    static const char *const names[] = {"--scale", "--relative", "--zoom"};
 
-    if (text == NULL) {
-        cli_fail(CLI_USAGE, "'%s' needs a value", option);
-    }
-    value = strtod(text, &end);
-    if (end == text || *end != '\0' || !(value >= 0)) {
-        cli_fail(CLI_USAGE, "'%s %s': expected a number, 0 or more", option,
-                text);
-    }
-    return value;
-}
-
-static double take_scale(const char *option, const char *text)
-{
-    const double value = take_limit(option, text);
-
-    if (!(value > 0 && value < HUGE_VAL)) {
-        cli_fail(CLI_USAGE, "'%s %s': expected a finite number above 0", option,
-                text);
-    }
-    return value;
-}
-
-static void parse(options_t *o, int argc, char **argv)
-{
-    const char *drawing = NULL; /* an option for the picture */
-    int paths = 0;
-
-    memset(o, 0, sizeof *o);
-    o->relmse_max = o->bias_max = HUGE_VAL;
-    o->style.zoom = 1;
-    for (int i = 1; i < argc; i++) {
-        const char *a = argv[i];
-        if (strcmp(a, "--help") == 0 || strcmp(a, "-h") == 0) {
-            fputs(help, stdout);
-            exit(CLI_DONE);
-        } else if (strcmp(a, "-o") == 0) {
-            o->picture = cli_text(a, argv[++i]);
-        } else if (strcmp(a, "--max-relmse") == 0) {
-            o->relmse_max = take_limit(a, argv[++i]);
-        } else if (strcmp(a, "--max-bias") == 0) {
-            o->bias_max = take_limit(a, argv[++i]);
-        } else if (strcmp(a, "--scale") == 0) {
-            o->style.scale = take_scale(drawing = a, argv[++i]);
-        } else if (strcmp(a, "--relative") == 0) {
-            drawing = a;
-            o->style.relative = true;
-        } else if (strcmp(a, "--zoom") == 0) {
-            drawing = a;
-            o->style.zoom =
-                    (unsigned)cli_number(a, argv[++i], 1, DIFF_ZOOM_MAX);
-        } else if (a[0] == '-' && a[1] != '\0') {
-            cli_fail(CLI_USAGE, "unknown option '%s' (see --help)", a);
-        } else if (paths < 2) {
-            o->path[paths++] = a;
-        } else {
-            cli_fail(CLI_USAGE, "a third picture: '%s' (see --help)", a);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (o->picture == NULL && options_given(names[i])) {
+            options_fail("'%s' needs '-o'", names[i]);
         }
-    }
-    if (paths < 2) {
-        cli_fail(CLI_USAGE, "name two pictures (see --help)");
-    }
-    if (o->picture != NULL && image_kind("-o", o->picture) == IMAGE_PFM) {
-        cli_fail(CLI_USAGE, "'-o %s': the difference is a .ppm or .png",
-                o->picture);
-    }
-    if (o->picture == NULL && drawing != NULL) {
-        cli_fail(CLI_USAGE, "'%s' needs -o (see --help)", drawing);
     }
 }
 
@@ -180,20 +136,21 @@ static void write_picture(const image_t *page, const char *path)
     cli_out_t out;
 
     cli_out_open(&out, path);
-    image_write(page, image_kind("-o", path), &out);
+    image_write(page, image_kind(path), &out);
     cli_out_commit(&out);
 }
 
 int main(int argc, char **argv)
 {
-    options_t o;
+    options_t o = {
+            .relmse_max = HUGE_VAL, .bias_max = HUGE_VAL, .style = {.zoom = 1}};
     image_t a, b, page;
     numbers_t n;
     diff_shown_t shown;
     bool above;
 
-    cli_begin("qlux-diff");
-    parse(&o, argc, argv);
+    options_parse(&program, argc, argv, &o);
+    check_options(&o);
     image_read(&a, o.path[0]);
     image_read(&b, o.path[1]);
     if (a.width != b.width || a.height != b.height) {

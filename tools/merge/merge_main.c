@@ -5,85 +5,69 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/program/options.h"
 #include "lib/render/develop.h"
-
-static const char help[] =
-        "qlux-merge: add up parts of one picture, bit for bit\n"
-        "\n"
-        "  qlux-merge A.qls B.qls ... -o OUT.{ppm,pfm,png} [options]\n"
-        "\n"
-        "  -o FILE          the picture: display values, or linear as .pfm\n"
-        "  --save-sums FILE the sum of the parts, itself a part\n"
-        "  --format F       rgb888, rgb565le, rgb565be, gray8 or gray4\n"
-        "  --quiet          do not warn of missing rows or samples\n"
-        "\n"
-        "Parts come from qlux-sim --save-sums. They must be of one scene and\n"
-        "have the same settings; no sample may be in two of them.\n"
-        "Exit: 0 done, 1 usage, 2 parts that do not fit, 3 cannot read, write\n"
-        "\n"
-        "Example:\n"
-        "  qlux-sim box.qlb --rows 0:64 --save-sums top.qls\n"
-        "  qlux-sim box.qlb --rows 64:128 --save-sums low.qls\n"
-        "  qlux-merge top.qls low.qls -o box.png\n";
 
 typedef struct {
     const char *picture;
     const char *save;
     ql_format_t format;
     bool quiet;
-    const char **parts;
-    int part_count;
+    option_list_t parts;
 } options_t;
 
-static void parse(options_t *o, int argc, char **argv)
-{
-    bool has_format = false;
+#define AT(field) OPTION_FIELD(options_t, field)
 
-    memset(o, 0, sizeof *o);
-    o->parts = cli_alloc((size_t)argc, sizeof *o->parts);
-    for (int i = 1; i < argc; i++) {
-        const char *a = argv[i];
-        if (strcmp(a, "--help") == 0 || strcmp(a, "-h") == 0) {
-            fputs(help, stdout);
-            exit(CLI_DONE);
-        } else if (strcmp(a, "-o") == 0) {
-            o->picture = cli_text(a, argv[++i]);
-        } else if (strcmp(a, "--save-sums") == 0) {
-            o->save = cli_text(a, argv[++i]);
-        } else if (strcmp(a, "--format") == 0) {
-            o->format = (ql_format_t)cli_choice(a, argv[++i], develop_formats);
-            has_format = true;
-        } else if (strcmp(a, "--quiet") == 0) {
-            o->quiet = true;
-        } else if (a[0] == '-' && a[1] != '\0') {
-            cli_fail(CLI_USAGE, "unknown option '%s' (see --help)", a);
-        } else {
-            o->parts[o->part_count++] = a;
-        }
-    }
-    if (o->part_count == 0) {
-        cli_fail(CLI_USAGE, "name at least one .qls file (see --help)");
-    }
+static const char *const pictures[] = {".ppm", ".pfm", ".png", NULL};
+
+static const option_t merging[] = {
+        {"A.qls", OPTION_LIST, AT(parts), .required = true},
+        {"-o FILE", OPTION_FILE, AT(picture), .words = pictures,
+                .help = "the picture: .ppm and .png as a display shows it, "
+                        ".pfm linear radiance in the units of Ke"},
+        {"--save-sums FILE", OPTION_FILE, AT(save),
+                .help = "the sum of the parts, itself a part (.qls)"},
+        {"--format F", OPTION_WORD, AT(format), .words = develop_formats,
+                .help = "of the display, widened to 8-bit RGB"},
+        {"--quiet", OPTION_FLAG, AT(quiet),
+                .help = "do not warn of missing rows or samples"},
+        OPTION_END};
+
+static const option_section_t sections[] = {{NULL, merging}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-merge",
+        .about = "add up parts of one picture, bit for bit",
+        .usage = "A.qls B.qls ... -o OUT.{ppm,pfm,png} [options]",
+        .sections = sections,
+        .notes = "Parts come from qlux-sim --save-sums. They must be of one "
+                 "scene and have the same settings; no sample may be in two of "
+                 "them.",
+        .example = "qlux-sim box.qlb --rows 0:64 --save-sums top.qls\n"
+                   "qlux-sim box.qlb --rows 64:128 --save-sums low.qls\n"
+                   "qlux-merge top.qls low.qls -o box.png"};
+
+static void check_options(const options_t *o)
+{
     if (o->picture == NULL && o->save == NULL) {
-        cli_fail(CLI_USAGE, "give -o, --save-sums, or both (see --help)");
+        options_fail("missing -o FILE or --save-sums FILE");
     }
-    if (has_format &&
-            (o->picture == NULL || image_kind("-o", o->picture) == IMAGE_PFM)) {
-        cli_fail(CLI_USAGE, "'--format' needs '-o' with a .ppm or .png name");
+    if (options_given("--format") &&
+            (o->picture == NULL || image_kind(o->picture) == IMAGE_PFM)) {
+        options_fail("'--format' needs '-o' with a .ppm or .png name");
     }
 }
 
 /* The part must be of the same picture as the first one. */
-static void check_fit(
-        const sums_t *whole, const sums_t *part, const options_t *o, int i)
+static void check_fit(const sums_t *whole, const sums_t *part,
+        const option_list_t *parts, unsigned i)
 {
     const unsigned field = sums_compare(whole, part);
 
     if (field != SUMS_FIELD_COUNT) {
         cli_fail(CLI_INPUT, "%s: its %s is %" PRId64 ", but %" PRId64 " in %s",
-                o->parts[i], sums_field_name(field),
+                parts->items[i], sums_field_name(field),
                 sums_field_value(part, field), sums_field_value(whole, field),
-                o->parts[0]);
+                parts->items[0]);
     }
 }
 
@@ -137,20 +121,17 @@ static void warn_of_gaps(const sums_t *sums)
 
 int main(int argc, char **argv)
 {
-    options_t o;
+    options_t o = {.quiet = false};
     sums_t whole, part;
     cli_out_t picture, save;
 
-    cli_begin("qlux-merge");
-    parse(&o, argc, argv);
-    if (o.picture != NULL) {
-        (void)image_kind("-o", o.picture); /* before the work */
-    }
-    sums_read(&whole, o.parts[0]);
-    for (int i = 1; i < o.part_count; i++) {
-        sums_read(&part, o.parts[i]);
-        check_fit(&whole, &part, &o, i);
-        add_part(&whole, &part, o.parts[i]);
+    options_parse(&program, argc, argv, &o);
+    check_options(&o);
+    sums_read(&whole, o.parts.items[0]);
+    for (unsigned i = 1; i < o.parts.count; i++) {
+        sums_read(&part, o.parts.items[i]);
+        check_fit(&whole, &part, &o.parts, i);
+        add_part(&whole, &part, o.parts.items[i]);
         sums_free(&part);
     }
     if (!o.quiet) {
@@ -158,7 +139,7 @@ int main(int argc, char **argv)
     }
     if (o.picture != NULL) {
         cli_out_open(&picture, o.picture);
-        develop_write(&whole, image_kind("-o", o.picture), o.format, &picture);
+        develop_write(&whole, image_kind(o.picture), o.format, &picture);
     }
     if (o.save != NULL) {
         cli_out_open(&save, o.save);
@@ -169,6 +150,5 @@ int main(int argc, char **argv)
         cli_out_commit(&picture);
     }
     sums_free(&whole);
-    free(o.parts);
     return CLI_DONE;
 }

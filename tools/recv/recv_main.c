@@ -12,26 +12,48 @@
 #include <unistd.h>
 
 #include "base/ql_crc.h"
+#include "lib/image/image_file.h"
 #include "lib/program/bytes.h"
-#include "lib/program/cli.h"
+#include "lib/program/options.h"
 #include "lib/render/widen.h"
 #include "app/ql_stream.h"
 
-static const char help[] =
-        "usage: qlux-recv DEVICE-or-FILE -o OUT.ppm [options]\n"
-        "Receive a picture that a board sends, until its last frame.\n"
-        "\n"
-        "  DEVICE-or-FILE  a serial device, a FIFO, a file, or - for stdin\n"
-        "  -o OUT.ppm      written only if every line arrived intact\n"
-        "  --baud N        of a serial device (115200)\n"
-        "  --stats         print the board's counters as \"key: value\" lines\n"
-        "  --quiet         no progress bar\n"
-        "\n"
-        "Bytes between frames are skipped; text lines among them that begin\n"
-        "with \"qlux: \" are shown. Under QEMU's -icount shift=0 one of the\n"
-        "nanoseconds that --stats prints is one instruction.\n"
-        "\n"
-        "Example: qlux-recv /dev/ttyACM0 -o picture.ppm --stats\n";
+typedef struct {
+    const char *from, *to;
+    uint32_t baud;
+    bool stats, quiet;
+} options_t;
+
+#define AT(field) OPTION_FIELD(options_t, field)
+
+static const char *const pictures[] = {".ppm", ".png", NULL};
+
+static const option_t options[] = {
+        {"DEVICE-or-FILE", OPTION_TEXT, AT(from), .required = true,
+                .help = "a serial device, a FIFO, a file, or - for stdin"},
+        {"-o FILE", OPTION_FILE, AT(to), .words = pictures, .required = true,
+                .help = ".ppm or .png, written only if every line arrived "
+                        "intact"},
+        {"--baud N", OPTION_NUMBER, AT(baud), .min = 1, .max = INT32_MAX,
+                .help = "of a serial device"},
+        {"--stats", OPTION_FLAG, AT(stats),
+                .help = "print the board's counters as lines of \"key: "
+                        "value\""},
+        {"--quiet", OPTION_FLAG, AT(quiet), .help = "no progress bar"},
+        OPTION_END};
+
+static const option_section_t sections[] = {{NULL, options}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-recv",
+        .about = "receive a picture that a board sends, until its last frame",
+        .usage = "DEVICE-or-FILE -o OUT.{ppm,png} [options]",
+        .sections = sections,
+        .notes = "Bytes between frames are skipped; text lines among them that "
+                 "begin with \"qlux:\" are shown. A board sends what its "
+                 "display shows, so there is no .pfm. Under QEMU's -icount "
+                 "shift=0 one of the nanoseconds that --stats prints is one "
+                 "instruction.",
+        .example = "qlux-recv /dev/ttyACM0 -o picture.png --stats"};
 
 /* Room for the longest frame twice, so that one is always whole in it. */
 #define BUFFER_BYTES (2u * QL_STREAM_FRAME_BYTES(UINT16_MAX))
@@ -54,7 +76,7 @@ typedef struct {
     ql_format_t format;
     uint32_t spp, seed;
     size_t line_bytes;
-    uint8_t *rgb;   /* 3 * width * height */
+    image_t image;  /* as bytes */
     uint8_t *lines; /* LINE_ of each */
     uint32_t good, duplicates, bad_frames;
     bool ended;
@@ -63,10 +85,10 @@ typedef struct {
 
 /* ---- the input ---------------------------------------------------------- */
 
-static void set_up_tty(int fd, int64_t baud)
+static void set_up_tty(int fd, uint32_t baud)
 {
     static const struct {
-        int64_t baud;
+        uint32_t baud;
         speed_t code;
     } rates[] = {
             {9600, B9600},
@@ -94,11 +116,11 @@ static void set_up_tty(int fd, int64_t baud)
             }
         }
     }
-    cli_fail(CLI_USAGE, "--baud %ld: the device does not have this rate",
-            (long)baud);
+    options_fail("'--baud %lu': the device does not have this rate",
+            (unsigned long)baud);
 }
 
-static void open_input(input_t *in, const char *path, int64_t baud)
+static void open_input(input_t *in, const char *path, uint32_t baud)
 {
     memset(in, 0, sizeof *in);
     in->path = path;
@@ -222,7 +244,7 @@ static void begin_picture(picture_t *picture, const uint8_t *payload)
     const uint16_t width = bytes_get_le16(payload),
                    height = bytes_get_le16(payload + 2);
 
-    free(picture->rgb);
+    image_free(&picture->image);
     free(picture->lines);
     memset(picture, 0, sizeof *picture);
     if (width == 0 || width > QL_IMAGE_MAX || height == 0 ||
@@ -238,11 +260,8 @@ static void begin_picture(picture_t *picture, const uint8_t *payload)
     picture->spp = bytes_get_le32(payload + 8);
     picture->seed = bytes_get_le32(payload + 12);
     picture->line_bytes = QL_LINE_BYTES(width, picture->format);
-    picture->rgb = calloc((size_t)width * height, 3);
-    picture->lines = calloc(height, 1);
-    if (picture->rgb == NULL || picture->lines == NULL) {
-        cli_fail(CLI_IO, "not enough memory for %u x %u pixels", width, height);
-    }
+    image_new_bytes(&picture->image, width, height);
+    picture->lines = cli_alloc(height, 1);
 }
 
 static void take_line(picture_t *picture, const uint8_t *payload)
@@ -253,7 +272,7 @@ static void take_line(picture_t *picture, const uint8_t *payload)
         picture->bad_frames++;
         return;
     }
-    widen_line(picture->rgb + 3 * (size_t)y * picture->width,
+    widen_line(picture->image.bytes + 3 * (size_t)y * picture->width,
             payload + QL_STREAM_LINE_PREFIX, picture->format, picture->width);
     if (picture->lines[y] == LINE_GOOD) {
         picture->duplicates++;
@@ -398,12 +417,10 @@ static void print_stats(const picture_t *picture, const input_t *in)
 
 static void write_picture(const picture_t *picture, const char *path)
 {
-    const size_t size = 3 * (size_t)picture->width * picture->height;
     cli_out_t out;
 
     cli_out_open(&out, path);
-    fprintf(out.file, "P6\n%u %u\n255\n", picture->width, picture->height);
-    fwrite(picture->rgb, 1, size, out.file);
+    image_write(&picture->image, image_kind(path), &out);
     cli_out_commit(&out);
 }
 
@@ -411,42 +428,17 @@ int main(int argc, char **argv)
 {
     static input_t in;
     static picture_t picture;
-    const char *from = NULL, *to = NULL;
-    int64_t baud = 115200;
-    bool stats = false, quiet = false;
+    options_t o = {.baud = 115200};
 
-    cli_begin("qlux-recv");
-    for (int i = 1; i < argc; i++) {
-        const char *arg = argv[i];
-        if (strcmp(arg, "--help") == 0) {
-            fputs(help, stdout);
-            return CLI_DONE;
-        } else if (strcmp(arg, "-o") == 0 && i + 1 < argc) {
-            to = argv[++i];
-        } else if (strcmp(arg, "--baud") == 0) {
-            baud = cli_number(arg, argv[++i], 1, INT32_MAX);
-        } else if (strcmp(arg, "--stats") == 0) {
-            stats = true;
-        } else if (strcmp(arg, "--quiet") == 0) {
-            quiet = true;
-        } else if (from == NULL && (arg[0] != '-' || arg[1] == '\0')) {
-            from = arg;
-        } else {
-            cli_fail(CLI_USAGE, "%s: not expected here; see --help", arg);
-        }
-    }
-    if (from == NULL || to == NULL) {
-        cli_fail(CLI_USAGE, "needs DEVICE-or-FILE and -o OUT.ppm; see --help");
-    }
-
-    open_input(&in, from, baud);
-    receive(&in, &picture, quiet);
-    check_complete(&picture, from);
-    write_picture(&picture, to);
-    if (stats) {
+    options_parse(&program, argc, argv, &o);
+    open_input(&in, o.from, o.baud);
+    receive(&in, &picture, o.quiet);
+    check_complete(&picture, o.from);
+    write_picture(&picture, o.to);
+    if (o.stats) {
         print_stats(&picture, &in);
     }
-    free(picture.rgb);
+    image_free(&picture.image);
     free(picture.lines);
     return CLI_DONE;
 }

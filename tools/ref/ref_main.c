@@ -12,27 +12,23 @@
 #include "lib/render/render_options.h"
 #include "lib/render/rows.h"
 
-static const char help[] =
-        "qlux-ref: a scene in double precision, with the random numbers of\n"
-        "qlux-sim: what differs is the rounding of the core's integers\n"
-        "\n"
-        "  qlux-ref SCENE.qlb -o OUT.{pfm,ppm,png} [options]\n"
-        "\n"
-        "Options are those of qlux-sim (see qlux-sim --help), but there are\n"
-        "no exact sums to save:\n"
-        "  -o FILE            .pfm linear radiance in the units of Ke; .ppm\n"
-        "                     and .png as a display shows it\n"
-        "  --size WxH  --spp N  --seed N  --sampler S  --direct D\n"
-        "  --indirect I  --bounces N  --lights L  --light-samples N\n"
-        "  --roulette  --format F  --rows A:B  --samples A:B  --threads N\n"
-        "  --stats  --quiet  --version\n"
-        "\n"
-        "Exit: 0 done, 1 usage, 2 bad scene, 3 cannot read or write, stopped\n"
-        "\n"
-        "Example:\n"
-        "  qlux-sim cornell.qlb -o a.pfm --spp 64\n"
-        "  qlux-ref cornell.qlb -o b.pfm --spp 64\n"
-        "  qlux-diff a.pfm b.pfm\n";
+static const option_section_t sections[] = {{NULL, render_options_scene},
+        {NULL, render_options_picture},
+        {"The picture, as qlux-sim has it:", render_options_settings},
+        {"A part of it:", render_options_part},
+        {"At work:", render_options_run}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-ref",
+        .about = "a scene in double precision, with the random numbers of "
+                 "qlux-sim: what differs is the rounding of the core's "
+                 "integers",
+        .usage = "SCENE.qlb -o OUT.{pfm,ppm,png} [options]",
+        .sections = sections,
+        .notes = "Each pixel takes all its samples, so there is no --error; "
+                 "sums of doubles are not exact, so there is no --save-sums.",
+        .example = "qlux-sim cornell.qlb -o a.pfm --spp 64\n"
+                   "qlux-ref cornell.qlb -o b.pfm --spp 64\n"
+                   "qlux-diff a.pfm b.pfm"};
 
 /* What the threads share. */
 typedef struct {
@@ -41,35 +37,6 @@ typedef struct {
     double *rgb; /* sums in radiance units */
     ref_stats_t stats;
 } job_t;
-
-static void options_of_its_own(int argc, char **argv)
-{
-    bool has_picture = false;
-
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            fputs(help, stdout);
-            exit(CLI_DONE);
-        }
-        if (strcmp(argv[i], "--version") == 0) {
-            puts("qlux-ref " QLUX_VERSION);
-            exit(CLI_DONE);
-        }
-        if (strcmp(argv[i], "--error") == 0 ||
-                strcmp(argv[i], "--samples-map") == 0) {
-            cli_fail(CLI_USAGE, "'%s': every pixel takes all samples here",
-                    argv[i]);
-        }
-        if (strcmp(argv[i], "--save-sums") == 0) {
-            cli_fail(CLI_USAGE, "'--save-sums': sums of doubles are not exact; "
-                                "use -o with a .pfm name");
-        }
-        has_picture = has_picture || strcmp(argv[i], "-o") == 0;
-    }
-    if (argc > 1 && !has_picture) {
-        cli_fail(CLI_USAGE, "give -o (see --help)");
-    }
-}
 
 static void draw(void *shared, void *own, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count)
@@ -193,9 +160,10 @@ int main(int argc, char **argv)
     job_t job;
     void *bytes;
 
-    cli_begin("qlux-ref");
-    options_of_its_own(argc, argv);
-    render_options_parse(&options, argc, argv);
+    render_options_parse(&program, argc, argv, &options);
+    if (options.picture == NULL) {
+        options_fail("missing -o FILE");
+    }
     bytes = open_blob(&blob, options.scene);
     resolve(&options, &blob);
     ref_scene_init(&scene, &blob);

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/program/cli.h"
+#include "lib/program/options.h"
 #include "lib/render/open_blob.h"
 #include "scene/blob/dump_blob.h"
 #include "scene/blob/model.h"
@@ -28,125 +28,92 @@
 #include "scene/scene_features.h"
 #include "scene/scene_info.h"
 
-static const char help[] =
-        "qlux-scene - compile a scene into a blob, show and edit blobs\n"
-        "\n"
-        "  qlux-scene IN.scene -o OUT.qlb [options]   compile\n"
-        "  qlux-scene --info BLOB.qlb                 say what is in a blob\n"
-        "  qlux-scene --dump BLOB.qlb [-o TEXT]       all of it as text\n"
-        "  qlux-scene TEXT -o OUT.qlb                 and back, bit by bit\n"
-        "\n"
-        "  --node-bits 8|16    16: fast, the default; 8: small\n"
-        "  --leaf N            most triangles in a leaf, 1 to 13, with 8-bit "
-        "nodes\n"
-        "                      to 12; default 4\n"
-        "  --features FILE.h   write the gates of a core for this scene\n"
-        "  --quiet             no progress bar, no summary\n"
-        "\n"
-        "Exit: 0 done, 1 wrong usage, 2 bad input, 3 could not read or write.\n"
-        "\n"
-        "Example: qlux-scene tests/scenes/cornell.scene -o cornell.qlb\n";
+enum { NODES8, NODES16 }; /* --node-bits */
 
 typedef struct {
     const char *input;
-    const char *output;   /* -o */
-    const char *features; /* --features */
-    unsigned node_bits;
+    const char *output;
+    const char *features;
+    unsigned nodes;
     unsigned leaf_max;
     bool info, dump, quiet;
-    bool compiles; /* an option was given that only compiling has */
 } options_t;
 
-static const char *next_argument(int *i, int argc, char **argv)
+#define AT(field) OPTION_FIELD(options_t, field)
+
+static const char *const node_bits[] = {"8", "16", NULL};
+
+static const option_t every_form[] = {
+        {"FILE", OPTION_TEXT, AT(input), .required = true},
+        {"-o FILE", OPTION_FILE, AT(output), .help = "the blob, or the text"},
+        {"--info", OPTION_FLAG, AT(info),
+                .help = "print what is in a blob as lines of \"key: value\""},
+        {"--dump", OPTION_FLAG, AT(dump), .help = "all of a blob as text"},
+        {"--quiet", OPTION_FLAG, AT(quiet),
+                .help = "no progress bar, no summary"},
+        OPTION_END};
+
+static const option_t making_blobs[] = {
+        {"--node-bits N", OPTION_WORD, AT(nodes), .words = node_bits,
+                .help = "16 is fast, 8 is small"},
+        {"--leaf N", OPTION_NUMBER, AT(leaf_max), .min = 1, .max = QL_LEAF_MAX,
+                .help = "most triangles in a leaf; at most 12 with 8-bit "
+                        "nodes"},
+        {"--features FILE", OPTION_FILE, AT(features),
+                .help = "write the gates of a core for this scene (.h)"},
+        OPTION_END};
+
+static const option_section_t sections[] = {
+        {NULL, every_form}, {"To make a blob:", making_blobs}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-scene",
+        .about = "compile a scene into a blob, show and edit blobs",
+        .usage = "IN.scene -o OUT.qlb [options]\tcompile\n"
+                 "--info BLOB.qlb\tsay what is in a blob\n"
+                 "--dump BLOB.qlb [-o TEXT]\tall of it as text\n"
+                 "TEXT -o OUT.qlb\tand back, bit by bit",
+        .sections = sections,
+        .example = "qlux-scene tests/scenes/cornell.scene -o cornell.qlb"};
+
+/* The first option given of those that only compiling has, or NULL. */
+static const char *compiling_option(void)
 {
-    const char *option = argv[*i];
-
-    *i += *i + 1 < argc;
-    return cli_text(option, argv[*i] != option ? argv[*i] : NULL);
-}
-
-/* Take the option at argv[*i] and its value. */
-static void parse_option(options_t *options, int *i, int argc, char **argv)
-{
-    static const char *const widths[] = {"8", "16", NULL};
-    const char *name = argv[*i];
-
-    if (strcmp(name, "-o") == 0) {
-        options->output = next_argument(i, argc, argv);
-    } else if (strcmp(name, "--node-bits") == 0) {
-        options->node_bits =
-                cli_choice(name, next_argument(i, argc, argv), widths) == 0
-                        ? 8
-                        : 16;
-        options->compiles = true;
-    } else if (strcmp(name, "--leaf") == 0) {
-        options->leaf_max = (unsigned)cli_number(
-                name, next_argument(i, argc, argv), 1, QL_LEAF_MAX);
-        options->compiles = true;
-    } else if (strcmp(name, "--features") == 0) {
-        options->features = next_argument(i, argc, argv);
-    } else if (strcmp(name, "--info") == 0) {
-        options->info = true;
-    } else if (strcmp(name, "--dump") == 0) {
-        options->dump = true;
-    } else if (strcmp(name, "--quiet") == 0) {
-        options->quiet = true;
-    } else {
-        cli_fail(CLI_USAGE, "unknown option '%s'; try --help", name);
-    }
+    return options_given("--node-bits")  ? "--node-bits"
+           : options_given("--leaf")     ? "--leaf"
+           : options_given("--features") ? "--features"
+                                         : NULL;
 }
 
 static void check_options(const options_t *options)
 {
-    const bool shows = options->info || options->dump;
+    const char *shows = options->info   ? "--info"
+                        : options->dump ? "--dump"
+                                        : NULL;
 
-    if (options->input == NULL) {
-        cli_fail(CLI_USAGE, "expected an input file; try --help");
-    }
     if (options->info && options->dump) {
-        cli_fail(CLI_USAGE, "expected --info or --dump, not both");
+        options_fail("'--info' goes without '--dump'");
     }
-    if (!shows && options->output == NULL) {
-        cli_fail(CLI_USAGE, "expected -o OUT.qlb; try --help");
+    if (shows == NULL && options->output == NULL) {
+        options_fail("missing -o FILE");
     }
-    if (options->node_bits == 8 && options->leaf_max > COMPILE_LEAF8_MAX) {
-        cli_fail(CLI_USAGE,
-                "--leaf: expected 1 to %d with 8-bit nodes, found "
-                "%u",
-                COMPILE_LEAF8_MAX, options->leaf_max);
+    if (options->nodes == NODES8 && options->leaf_max > COMPILE_LEAF8_MAX) {
+        options_fail("'--leaf %u': expected 1 to %d with 8-bit nodes",
+                options->leaf_max, COMPILE_LEAF8_MAX);
     }
-    if (shows && (options->compiles || options->features != NULL ||
-                         (options->info && options->output != NULL))) {
-        cli_fail(CLI_USAGE, "%s takes a blob and no option of compiling",
-                options->info ? "--info" : "--dump");
+    if (shows != NULL && compiling_option() != NULL) {
+        options_fail("'%s' goes without '%s'", shows, compiling_option());
     }
-}
-
-static options_t parse_options(int argc, char **argv)
-{
-    options_t options = {NULL, NULL, NULL, 16, 4, false, false, false, false};
-
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            fputs(help, stdout);
-            exit(CLI_DONE);
-        } else if (argv[i][0] == '-' && argv[i][1] != '\0') {
-            parse_option(&options, &i, argc, argv);
-        } else if (options.input == NULL) {
-            options.input = argv[i];
-        } else {
-            cli_fail(CLI_USAGE, "expected one input file, found '%s' too",
-                    argv[i]);
-        }
+    if (options->info && options->output != NULL) {
+        options_fail("'--info' goes without '-o'");
     }
-    check_options(&options);
-    return options;
 }
 
 static void compile(model_t *model, text_t *text, const options_t *options)
 {
     const compile_options_t how = {
-            options->node_bits, options->leaf_max, options->quiet};
+            .node_bits = options->nodes == NODES8 ? 8 : 16,
+            .leaf_max = options->leaf_max,
+            .quiet = options->quiet};
     world_t world;
 
     read_scene(&world, text);
@@ -191,11 +158,9 @@ static void make_blob(const options_t *options)
 
     text_open(&text, options->input);
     if (is_dump(&text)) {
-        if (options->compiles) {
-            cli_fail(CLI_USAGE,
-                    "--node-bits and --leaf are for scenes; '%s' "
-                    "is the dump of a blob",
-                    options->input);
+        if (options_given("--node-bits") || options_given("--leaf")) {
+            options_fail("'%s' is for scenes; %s is the dump of a blob",
+                    compiling_option(), options->input);
         }
         parse_dump(&model, &text);
     } else {
@@ -226,10 +191,10 @@ static void show_blob(const options_t *options)
 
 int main(int argc, char **argv)
 {
-    options_t options;
+    options_t options = {.nodes = NODES16, .leaf_max = 4};
 
-    cli_begin("qlux-scene");
-    options = parse_options(argc, argv);
+    options_parse(&program, argc, argv, &options);
+    check_options(&options);
     if (options.info || options.dump) {
         show_blob(&options);
     } else {

@@ -6,30 +6,7 @@
 
 #include "lib/image/font.h"
 #include "lib/image/image_file.h"
-
-static const char help[] =
-        "qlux-sheet: labelled pictures in a grid\n"
-        "\n"
-        "  qlux-sheet -o OUT.{png,ppm} [options] LABEL=IN ...\n"
-        "\n"
-        "  LABEL=IN       a picture, .png or .ppm, and the text below it; '|'\n"
-        "                 begins a new line. The last '=' is the one that\n"
-        "                 counts\n"
-        "  --columns N    pictures side by side                 all of them\n"
-        "  --title TEXT   a line above the pictures; may be given again\n"
-        "  --zoom N       show a pixel as N x N, 1 to 16                  1\n"
-        "  --text N       size of the letters, 1 to 16                    2\n"
-        "\n"
-        "Letters are printable ASCII, six pixels wide at size 1. The first\n"
-        "title is half as large again, the first line of a label is darker\n"
-        "than the rest. All cells are as large as the largest picture and the\n"
-        "longest line need.\n"
-        "Exit: 0 done, 1 usage, 2 bad picture, 3 cannot read or write\n"
-        "\n"
-        "Example:\n"
-        "  qlux-sheet -o sheet.png --columns 2 --title 'One sample a pixel' "
-        "\\\n"
-        "      'area|by points'=a.ppm 'cosine|by directions'=b.ppm\n";
+#include "lib/program/options.h"
 
 enum { ZOOM_MAX = 16, TEXT_MAX = 16, TITLES_MAX = 8 };
 
@@ -42,11 +19,10 @@ typedef struct {
 
 typedef struct {
     const char *output;
-    const char *title[TITLES_MAX];
-    unsigned titles;
+    option_list_t titles, inputs;
     unsigned columns;
     unsigned zoom, text;
-    picture_t *pictures;
+    picture_t *pictures; /* of the inputs */
     unsigned count;
 } sheet_t;
 
@@ -74,9 +50,6 @@ static void take_picture(sheet_t *s, const char *text)
     const char *equals = strrchr(text, '=');
     size_t size;
 
-    if (equals == NULL || equals[1] == '\0') {
-        cli_fail(CLI_USAGE, "'%s': expected LABEL=IN (see --help)", text);
-    }
     size = (size_t)(equals - text);
     p->path = equals + 1;
     p->label = cli_alloc(size + 1, 1);
@@ -90,49 +63,54 @@ static void take_picture(sheet_t *s, const char *text)
     }
 }
 
-static void take_title(sheet_t *s, const char *option, const char *text)
-{
-    if (s->titles == TITLES_MAX) {
-        cli_fail(CLI_USAGE, "'%s': at most %d of them", option, TITLES_MAX);
-    }
-    s->title[s->titles++] = cli_text(option, text);
-}
+#define AT(field) OPTION_FIELD(sheet_t, field)
+
+static const char *const pages[] = {".png", ".ppm", NULL};
+
+static const option_t options[] = {
+        {"LABEL=IN", OPTION_LABEL, AT(inputs), .required = true,
+                .help = "a picture, .png or .ppm, and the text below it; '|' "
+                        "begins a new line; the last '=' is the one that "
+                        "counts"},
+        {"-o FILE", OPTION_FILE, AT(output), .words = pages, .required = true,
+                .help = "the sheet, .png or .ppm"},
+        {"--columns N", OPTION_NUMBER, AT(columns), .min = 1,
+                .max = IMAGE_SIDE_MAX, .preset = "all of them",
+                .help = "pictures side by side"},
+        {"--title TEXT", OPTION_LIST, AT(titles),
+                .help = "a line above the pictures; may be given again"},
+        {"--zoom N", OPTION_NUMBER, AT(zoom), .min = 1, .max = ZOOM_MAX,
+                .help = "show a pixel as N x N"},
+        {"--text N", OPTION_NUMBER, AT(text), .min = 1, .max = TEXT_MAX,
+                .help = "size of the letters"},
+        OPTION_END};
+
+static const option_section_t sections[] = {{NULL, options}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-sheet",
+        .about = "labelled pictures in a grid",
+        .usage = "-o OUT.{png,ppm} [options] LABEL=IN ...",
+        .sections = sections,
+        .notes = "Letters are printable ASCII, six pixels wide at size 1. The "
+                 "first title is half as large again, the first line of a "
+                 "label is darker than the rest. All cells are as large as the "
+                 "largest picture and the longest line need.",
+        .example = "qlux-sheet -o sheet.png --columns 2 --title 'One sample a "
+                   "pixel' \\\n"
+                   "    'area|by points'=a.ppm 'cosine|by directions'=b.ppm"};
 
 static void parse(sheet_t *s, int argc, char **argv)
 {
     memset(s, 0, sizeof *s);
     s->zoom = 1;
     s->text = 2;
-    s->pictures = cli_alloc((size_t)argc, sizeof *s->pictures);
-    for (int i = 1; i < argc; i++) {
-        const char *a = argv[i];
-        if (strcmp(a, "--help") == 0 || strcmp(a, "-h") == 0) {
-            fputs(help, stdout);
-            exit(CLI_DONE);
-        } else if (strcmp(a, "-o") == 0) {
-            s->output = cli_text(a, argv[++i]);
-        } else if (strcmp(a, "--columns") == 0) {
-            s->columns = (unsigned)cli_number(a, argv[++i], 1, IMAGE_SIDE_MAX);
-        } else if (strcmp(a, "--title") == 0) {
-            take_title(s, a, argv[++i]);
-        } else if (strcmp(a, "--zoom") == 0) {
-            s->zoom = (unsigned)cli_number(a, argv[++i], 1, ZOOM_MAX);
-        } else if (strcmp(a, "--text") == 0) {
-            s->text = (unsigned)cli_number(a, argv[++i], 1, TEXT_MAX);
-        } else if (a[0] == '-' && strchr(a, '=') == NULL) {
-            cli_fail(CLI_USAGE, "unknown option '%s' (see --help)", a);
-        } else {
-            take_picture(s, a);
-        }
+    options_parse(&program, argc, argv, s);
+    if (s->titles.count > TITLES_MAX) {
+        options_fail("'--title': at most %d of them", TITLES_MAX);
     }
-    if (s->output == NULL) {
-        cli_fail(CLI_USAGE, "give -o (see --help)");
-    }
-    if (s->count == 0) {
-        cli_fail(CLI_USAGE, "name a picture as LABEL=IN (see --help)");
-    }
-    if (image_kind("-o", s->output) == IMAGE_PFM) {
-        cli_fail(CLI_USAGE, "'-o %s': a sheet is a .png or .ppm", s->output);
+    s->pictures = cli_alloc(s->inputs.count, sizeof *s->pictures);
+    for (unsigned i = 0; i < s->inputs.count; i++) {
+        take_picture(s, s->inputs.items[i]);
     }
     if (s->columns == 0 || s->columns > s->count) {
         s->columns = s->count;
@@ -184,14 +162,14 @@ static layout_t lay_out(const sheet_t *s)
     }
     l.cell_height = l.view_height + l.gap + lines * l.line;
     l.width = l.margin + s->columns * (l.cell_width + l.margin);
-    for (unsigned i = 0; i < s->titles; i++) {
+    for (unsigned i = 0; i < s->titles.count; i++) {
         const unsigned scale = title_scale(s, i);
 
         l.head += (FONT_HEIGHT + 3u) * scale;
-        l.width = larger(
-                l.width, 2 * l.margin + font_text_width(s->title[i], scale));
+        l.width = larger(l.width,
+                2 * l.margin + font_text_width(s->titles.items[i], scale));
     }
-    l.head += s->titles > 0 ? l.gap : 0;
+    l.head += s->titles.count > 0 ? l.gap : 0;
     l.height = l.margin + l.head + rows * (l.cell_height + l.margin);
     if (l.width > IMAGE_SIDE_MAX || l.height > IMAGE_SIDE_MAX ||
             l.width * l.height > IMAGE_PIXELS_MAX) {
@@ -214,11 +192,11 @@ static void draw_titles(image_t *sheet, const sheet_t *s, const layout_t *l)
 {
     size_t y = l->margin;
 
-    for (unsigned i = 0; i < s->titles; i++) {
+    for (unsigned i = 0; i < s->titles.count; i++) {
         const unsigned scale = title_scale(s, i);
 
-        write_line(
-                sheet, l->margin, y, scale, s->title[i], i == 0 ? black : gray);
+        write_line(sheet, l->margin, y, scale, s->titles.items[i],
+                i == 0 ? black : gray);
         y += (FONT_HEIGHT + 3u) * scale;
     }
 }
@@ -266,7 +244,7 @@ static void write_sheet(const sheet_t *s)
         draw_cell(&sheet, s, &l, i);
     }
     cli_out_open(&out, s->output);
-    image_write(&sheet, image_kind("-o", s->output), &out);
+    image_write(&sheet, image_kind(s->output), &out);
     cli_out_commit(&out);
     image_free(&sheet);
 }
@@ -275,7 +253,6 @@ int main(int argc, char **argv)
 {
     sheet_t s;
 
-    cli_begin("qlux-sheet");
     parse(&s, argc, argv);
     for (unsigned i = 0; i < s.count; i++) {
         picture_t *p = s.pictures + i;

@@ -15,21 +15,38 @@
 #include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
 
-static const char help[] =
-        "trade-error: the error of a picture as its samples double\n"
-        "\n"
-        "  trade-error A.pfm B.pfm ENOUGH SCENE.qlb [options of qlux-sim]\n"
-        "\n"
-        "A and B are references with different seeds. Prints a line for 1, 2,\n"
-        "4, .. samples a pixel up to --spp, or until the error is below\n"
-        "ENOUGH, or the bias above it after 1024: \"samples error bias\". The\n"
-        "error is the root of relMSE (see qlux-diff) against what both\n"
-        "references estimate, the bias the relative difference of the means.\n"
-        "With --error pixels end by themselves: one line, with their mean\n"
-        "number of samples.\n"
-        "\n"
-        "Example:\n"
-        "  trade-error a.pfm b.pfm 0.01 cornell.qlb --size 36x36 --spp 1024\n";
+typedef struct {
+    render_options_t render; /* first: render_options_parse() */
+    const char *a, *b;
+    double enough;
+} options_t;
+
+#define AT(field) OPTION_FIELD(options_t, field)
+
+static const option_t arguments[] = {
+        {"A.pfm", OPTION_TEXT, AT(a), .required = true},
+        {"B.pfm", OPTION_TEXT, AT(b), .required = true},
+        {"ENOUGH", OPTION_REAL, AT(enough), .max = HUGE_VAL, .required = true},
+        OPTION_END};
+
+static const option_section_t sections[] = {{NULL, arguments},
+        {NULL, render_options_scene}, {NULL, render_options_settings},
+        {NULL, render_options_error}, {NULL, NULL}};
+
+static const program_t program = {.name = "trade-error",
+        .about = "the error of a picture as its samples double",
+        .usage = "A.pfm B.pfm ENOUGH SCENE.qlb [options]",
+        .sections = sections,
+        .notes = "A and B are references with different seeds. Prints a line "
+                 "for 1, 2, 4, .. samples a pixel up to --spp, or until the "
+                 "error is below ENOUGH, or the bias above it after 1024: "
+                 "\"samples error bias\". The error is the root of relMSE (see "
+                 "qlux-diff) against what both references estimate, the bias "
+                 "the relative difference of the means. With --error pixels "
+                 "end by themselves: one line, with their mean number of "
+                 "samples.",
+        .example = "trade-error a.pfm b.pfm 0.01 cornell.qlb --size 36x36 "
+                   "--spp 1024"};
 
 #define BIAS_IS_KNOWN 1024 /* samples a pixel */
 
@@ -136,53 +153,27 @@ static void read_reference(
     }
 }
 
-/* render_options_parse() wants to know where the picture goes. */
-static void parse(render_options_t *options, int argc, char **argv)
-{
-    char **args = cli_alloc((size_t)argc + 2, sizeof *args);
-    char out[] = "-o", nowhere[] = "nowhere.pfm";
-    int count = 0;
-
-    args[count++] = argv[0];
-    for (int i = 4; i < argc; i++) {
-        args[count++] = argv[i];
-    }
-    args[count++] = out;
-    args[count++] = nowhere;
-    render_options_parse(options, count, args);
-    free(args);
-}
-
 int main(int argc, char **argv)
 {
-    render_options_t options;
+    options_t options;
     measure_t m;
     ql_render_t render;
     ql_scene_t scene;
     void *blob;
 
-    cli_begin("trade-error");
-    if (argc == 2 && strcmp(argv[1], "--help") == 0) {
-        fputs(help, stdout);
-        return CLI_DONE;
+    render_options_parse(&program, argc, argv, &options);
+    blob = open_blob(&scene, options.render.scene);
+    if (ql_render_init(&render, &scene, &options.render.settings) != QL_OK) {
+        options_fail("a setting is not built into this core");
     }
-    if (argc < 5) {
-        cli_fail(CLI_USAGE, "expected A.pfm B.pfm ENOUGH SCENE.qlb; see "
-                            "--help");
-    }
-    parse(&options, argc, argv);
-    blob = open_blob(&scene, options.scene);
-    if (ql_render_init(&render, &scene, &options.settings) != QL_OK) {
-        cli_fail(CLI_USAGE, "a setting is not built into this core");
-    }
-    read_reference(&m.a, argv[1], &render.settings);
-    read_reference(&m.b, argv[2], &render.settings);
+    read_reference(&m.a, options.a, &render.settings);
+    read_reference(&m.b, options.b, &render.settings);
     m.pixels = (size_t)render.settings.width * render.settings.height;
     m.sums = cli_alloc(m.pixels, sizeof *m.sums);
     m.counts = cli_alloc(m.pixels, sizeof *m.counts);
     m.unit = ldexp(1, ql_i16(QL_LE16((uint16_t)scene.header->radiance_exp)) -
                               QL_SUM_BITS);
-    measure(&m, &render, strtod(argv[3], NULL));
+    measure(&m, &render, options.enough);
     image_free(&m.a);
     image_free(&m.b);
     free(m.sums);

@@ -5,27 +5,41 @@
 #include <string.h>
 
 #include "lib/image/image_file.h"
+#include "lib/program/options.h"
 #include "trade/trade.h"
 
-static const char help[] =
-        "qlux-trade: error against instructions of measured choices\n"
-        "\n"
-        "  qlux-trade TRADE.csv [-o FILE.{svg,png,ppm}] [--best] [--quiet]\n"
-        "\n"
-        "TRADE.csv is what make trade writes. Draws every choice, a line a\n"
-        "choice, as its samples double, and what is best on each core; "
-        "prints,\n"
-        "for each scene and core, the cheapest choice that reaches an error "
-        "of\n"
-        "10 %, 3 % and 1 %, its instructions a pixel, and what to ask for.\n"
-        "\n"
-        "  -o FILE   the drawing\n"
-        "  --best    print what nothing cheaper is better than, as a table\n"
-        "  --quiet   print nothing\n"
-        "\n"
-        "Exit: 0 done, 1 usage, 2 bad table, 3 cannot read or write\n"
-        "\n"
-        "Example: qlux-trade build/trade.csv -o build/trade.svg\n";
+typedef struct {
+    const char *table;
+    const char *picture;
+    bool best, quiet;
+} options_t;
+
+#define AT(field) OPTION_FIELD(options_t, field)
+
+static const char *const drawings[] = {".svg", ".png", ".ppm", NULL};
+
+static const option_t options[] = {
+        {"TRADE.csv", OPTION_TEXT, AT(table), .required = true},
+        {"-o FILE", OPTION_FILE, AT(picture), .words = drawings,
+                .help = "the drawing, .svg, .png or .ppm"},
+        {"--best", OPTION_FLAG, AT(best),
+                .help = "print what nothing cheaper is better than, as a "
+                        "table"},
+        {"--quiet", OPTION_FLAG, AT(quiet), .help = "print nothing"},
+        OPTION_END};
+
+static const option_section_t sections[] = {{NULL, options}, {NULL, NULL}};
+
+static const program_t program = {.name = "qlux-trade",
+        .about = "error against instructions of measured choices",
+        .usage = "TRADE.csv [options]",
+        .sections = sections,
+        .notes = "TRADE.csv is what make trade writes. Draws every choice, a "
+                 "line a choice, as its samples double, and what is best on "
+                 "each core; prints, for each scene and core, the cheapest "
+                 "choice that reaches an error of 10 %, 3 % and 1 %, its "
+                 "instructions a pixel, and what to ask for.",
+        .example = "qlux-trade build/trade.csv -o build/trade.svg"};
 
 static void recommend(const trade_t *trade)
 {
@@ -79,14 +93,11 @@ static void write_figure(const trade_t *trade, const char *path)
 {
     const char *dot = strrchr(path, '.');
     const bool svg = dot != NULL && strcmp(dot, ".svg") == 0;
-    const image_kind_t kind = svg ? IMAGE_PNG : image_kind("-o", path);
+    const image_kind_t kind = svg ? IMAGE_PNG : image_kind(path);
     figure_t figure;
     image_t image;
     cli_out_t out;
 
-    if (!svg && kind == IMAGE_PFM) {
-        cli_fail(CLI_USAGE, "'-o %s': expected .svg, .png or .ppm", path);
-    }
     trade_plot(&figure, trade);
     cli_out_open(&out, path);
     if (svg) {
@@ -102,39 +113,17 @@ static void write_figure(const trade_t *trade, const char *path)
 
 int main(int argc, char **argv)
 {
-    const char *table = NULL, *picture = NULL;
-    bool quiet = false, best = false;
+    options_t o = {.quiet = false};
     trade_t trade;
 
-    cli_begin("qlux-trade");
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            fputs(help, stdout);
-            return CLI_DONE;
-        }
-        if (strcmp(argv[i], "-o") == 0) {
-            picture = cli_text("-o", argv[++i]);
-        } else if (strcmp(argv[i], "--quiet") == 0) {
-            quiet = true;
-        } else if (strcmp(argv[i], "--best") == 0) {
-            best = true;
-        } else if (argv[i][0] == '-' || table != NULL) {
-            cli_fail(CLI_USAGE, "'%s': expected one table (see --help)",
-                    argv[i]);
-        } else {
-            table = argv[i];
-        }
+    options_parse(&program, argc, argv, &o);
+    trade_read(&trade, o.table);
+    if (o.picture != NULL) {
+        write_figure(&trade, o.picture);
     }
-    if (table == NULL) {
-        cli_fail(CLI_USAGE, "name a table (see --help)");
-    }
-    trade_read(&trade, table);
-    if (picture != NULL) {
-        write_figure(&trade, picture);
-    }
-    if (best) {
+    if (o.best) {
         print_best(&trade);
-    } else if (!quiet) {
+    } else if (!o.quiet) {
         recommend(&trade);
     }
     trade_free(&trade);

@@ -494,7 +494,7 @@ static void write_picture(const figure_t *figure, const char *path)
         figure_write_svg(figure, out.file);
     } else {
         figure_draw(figure, &image, PNG_SCALE);
-        image_write(&image, image_kind("-o", path), &out);
+        image_write(&image, image_kind(path), &out);
         image_free(&image);
     }
     cli_out_commit(&out);

@@ -73,18 +73,17 @@ warns() { # CLAIM TIMES TEXT: how often the last command said it
 
 # ---- usage ----
 reset_input
-"$scene" --help >out.txt && grep -q 'Example: ' out.txt
-say help_has_an_example $?
-expect no_arguments_are_refused 1 'an input file' "$scene"
-expect no_output_is_refused 1 'expected -o' "$scene" in/a.scene
-expect two_inputs_are_refused 1 'in/b' "$scene" in/a.scene in/b -o out.qlb
-expect unknown_options_are_refused 1 "'--bogus'" "$scene" in/a.scene --bogus
+expect no_arguments_are_refused 1 'missing FILE' "$scene"
+expect no_output_is_refused 1 'missing -o FILE' "$scene" in/a.scene
 expect node_bits_12_is_refused 1 '12' "$scene" in/a.scene -o o --node-bits 12
 expect leaf_0_is_refused 1 '--leaf' "$scene" in/a.scene -o o --leaf 0
 expect leaf_14_is_refused 1 '--leaf' "$scene" in/a.scene -o o --leaf 14
 expect leaf_13_is_refused_with_8_bit_nodes 1 'expected 1 to 12' \
     "$scene" in/a.scene -o o --leaf 13 --node-bits 8
-expect a_missing_value_is_refused 1 '-o' "$scene" in/a.scene -o
+expect info_with_a_leaf_is_refused 1 "'--info' goes without '--leaf'" \
+    "$scene" --info x --leaf 2
+expect info_with_an_output_is_refused 1 "'--info' goes without '-o'" \
+    "$scene" --info x -o y
 expect info_and_dump_together_are_refused 1 '--info' "$scene" --info --dump x
 
 # ---- reading and writing ----

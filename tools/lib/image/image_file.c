@@ -10,22 +10,14 @@
 #include "lib/image/png.h"
 #include "lib/image/pnm.h"
 
-image_kind_t image_kind(const char *option, const char *path)
+image_kind_t image_kind(const char *path)
 {
     const size_t n = strlen(path);
     const char *end = n > 4 ? path + n - 4 : "";
 
-    if (strcasecmp(end, ".ppm") == 0) {
-        return IMAGE_PPM;
-    }
-    if (strcasecmp(end, ".pfm") == 0) {
-        return IMAGE_PFM;
-    }
-    if (strcasecmp(end, ".png") == 0) {
-        return IMAGE_PNG;
-    }
-    cli_fail(CLI_USAGE, "'%s %s': expected a name ending in .ppm, .pfm or .png",
-            option, path);
+    return strcasecmp(end, ".png") == 0   ? IMAGE_PNG
+           : strcasecmp(end, ".pfm") == 0 ? IMAGE_PFM
+                                          : IMAGE_PPM;
 }
 
 const char *image_decode(

@@ -9,9 +9,9 @@
 
 typedef enum { IMAGE_PPM, IMAGE_PFM, IMAGE_PNG } image_kind_t;
 
-/* What kind of file a name asks for, by its extension in either case;
- * cli_fail(CLI_USAGE) if none. option names the option it came from. */
-image_kind_t image_kind(const char *option, const char *path);
+/* What kind of file a name asks for, by its extension in either case; a PPM if
+ * by none, but options refuse such names (OPTION_FILE). */
+image_kind_t image_kind(const char *path);
 
 /* Decode a file's bytes, the kind told by how they begin.
  *

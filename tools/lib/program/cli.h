@@ -2,9 +2,10 @@
 /* SPDX-License-Identifier: MIT */
 
 /* Exit codes are a contract: 0 done, 1 wrong usage, 2 bad input, 3 could not
- * read or write. Output goes to a temporary name beside its target and is
- * renamed when complete, so nothing half-written is ever left behind: not by
- * an error, not by a full disk, not by Ctrl-C. */
+ * read or write, or interrupted. Output goes to a temporary name beside its
+ * target and is renamed when complete, so nothing half-written is ever left
+ * behind: not by an error, not by a full disk, not by Ctrl-C. options.h takes
+ * the command line. */
 
 #ifndef CLI_H
 #define CLI_H
@@ -34,23 +35,6 @@ void cli_warn(const char *format, ...);
 
 /* calloc() that cannot fail: it ends in cli_fail(CLI_IO). */
 void *cli_alloc(size_t count, size_t size);
-
-/* Parse a whole decimal number in [min, max] or cli_fail(CLI_USAGE) naming the
- * option, the text and the range. text may be NULL (value missing). */
-int64_t cli_number(
-        const char *option, const char *text, int64_t min, int64_t max);
-
-/* Parse "AxB" (sep 'x') or "A:B" (sep ':'), both in [min, max], likewise. */
-void cli_pair(const char *option, const char *text, char sep, int64_t min,
-        int64_t max, int64_t *a, int64_t *b);
-
-/* text itself, or cli_fail(CLI_USAGE) if it is missing, empty, or looks like
- * another option. */
-const char *cli_text(const char *option, const char *text);
-
-/* Index of text in the NULL-terminated names, or cli_fail(CLI_USAGE) that
- * lists them. */
-int cli_choice(const char *option, const char *text, const char *const *names);
 
 /* Read a whole file into malloc'd, 8-byte aligned memory with a zero byte
  * after the end; cli_fail(CLI_IO) if it cannot be read. "-" is stdin. */

@@ -1,17 +1,12 @@
-/* render_options.h - what qlux-sim was asked to do */
+/* render_options.h - the options that every renderer of blobs takes */
 /* SPDX-License-Identifier: MIT */
 
-#ifndef SIM_OPTIONS_H
-#define SIM_OPTIONS_H
+#ifndef RENDER_OPTIONS_H
+#define RENDER_OPTIONS_H
 
-#include "lib/render/develop.h"
 #include "base/ql_settings.h"
-
-/* A range [first, end); end 0 is up to the last. */
-typedef struct {
-    uint32_t first;
-    uint32_t end;
-} sim_range_t;
+#include "lib/program/options.h"
+#include "lib/render/develop.h"
 
 typedef struct {
     const char *scene;      /* path of the blob */
@@ -21,18 +16,38 @@ typedef struct {
     image_kind_t kind;      /* of the picture */
     ql_format_t format;     /* of the display */
     ql_settings_t settings; /* width and height 0: the scene's own */
-    sim_range_t rows;
-    sim_range_t samples; /* resolved: within [0, spp) */
+    option_range_t rows;    /* end 0: all; see render_options_rows() */
+    option_range_t samples; /* within [0, spp) */
     unsigned threads;
     bool stats;
     bool quiet;
+
+    /* As they were given; render_options_parse() puts them into settings. */
+    option_size_t size;
+    double error;
+    bool roulette;
 } render_options_t;
 
-/* Parse the command line, or cli_fail(CLI_USAGE). Rows are checked against the
- * height later, by render_options_rows(), when it is known. */
-void render_options_parse(render_options_t *options, int argc, char **argv);
+/* Parts of a program's table. Their fields are those of a render_options_t. */
+extern const option_t render_options_scene[];    /* SCENE.qlb */
+extern const option_t render_options_picture[];  /* -o, --format */
+extern const option_t render_options_settings[]; /* --size, --spp, .. */
+extern const option_t render_options_error[];    /* --error, if it is built */
+extern const option_t render_options_part[];     /* --rows, --samples */
+extern const option_t render_options_sums[]; /* --save-sums, --samples-map */
+extern const option_t render_options_run[];  /* --threads, --stats, .. */
 
-/* Resolve rows for a picture of some height, or cli_fail(CLI_USAGE). */
+/* Take the command line of a program, or options_fail().
+ *
+ *   program     -  whose sections have one or more of the parts above
+ *   argc, argv  -  as main() has them
+ *   into        -  out: a struct that begins with a render_options_t, which is
+ *                  set to the defaults; what lies behind that is the caller's
+ */
+void render_options_parse(
+        const program_t *program, int argc, char **argv, void *into);
+
+/* Resolve rows for a picture of some height, or options_fail(). */
 void render_options_rows(render_options_t *options, uint32_t height);
 
 #endif
