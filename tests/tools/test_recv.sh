@@ -51,7 +51,7 @@ left='err out s want.ppm '
 "$stream" 0 5 4 >"$dir/s"
 size=$(wc -c <"$dir/s")
 receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" &&
-    grep -qx 'closest_rays: 6' "$dir/out" &&
+    grep -qx 'closest-rays: 6' "$dir/out" &&
     grep -qx 'nanoseconds: 3000000' "$dir/out"
 say whole_stream_gives_the_exact_picture $?
 
@@ -84,7 +84,7 @@ say "stream_cut_at_any_of_${size}_places_is_noticed" $bad
 
 "$stream" 0 5 4 noise >"$dir/s"
 receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" &&
-    ! grep -qx 'skipped_bytes: 0' "$dir/out"
+    ! grep -qx 'skipped-bytes: 0' "$dir/out"
 say garbage_between_frames_is_skipped $?
 
 { head -c 100000 /dev/zero | tr '\0' '\245'; "$stream" 0 5 4; } >"$dir/s"
@@ -93,7 +93,7 @@ say hundred_thousand_false_marks_are_skipped $?
 
 "$stream" 0 5 4 twice 2 >"$dir/s"
 receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" &&
-    grep -qx 'duplicate_lines: 1' "$dir/out"
+    grep -qx 'duplicate-lines: 1' "$dir/out"
 say line_sent_twice_is_harmless $?
 
 "$stream" 0 5 4 drop 2 >"$dir/s"
@@ -135,6 +135,37 @@ say gray8_is_decoded $?
 # Nibbles 0 0 0 1.
 pixel 4 4 12 000000000000000000111111
 say gray4_high_nibble_is_left $?
+
+# The extension says what is written; a board sends no linear radiance.
+"$stream" 0 5 4 >"$dir/s"
+"$recv" "$dir/s" -o "$dir/o.png" --quiet &&
+    [ "$(head -c 4 "$dir/o.png" | od -An -tx1 | tr -d ' \n')" = 89504e47 ] &&
+    "${recv%recv}diff" "$dir/o.png" "$dir/want.ppm" | grep -qx 'identical: yes'
+say png_is_a_png_of_the_same_picture $?
+rm -f "$dir/o.png"
+for name in o.pfm o.jpg o; do
+    "$recv" "$dir/s" -o "$dir/$name" 2>"$dir/err"
+    [ $? -eq 1 ] && grep -q 'ends in .ppm or .png' "$dir/err" &&
+        [ ! -e "$dir/$name" ]
+    say "${name}_is_refused" $?
+done
+
+# A board that sends the first lines and then nothing more.
+mkfifo "$dir/fifo"
+for signal in INT TERM; do
+    "$recv" "$dir/fifo" -o "$dir/stop.ppm" --quiet 2>"$dir/err" &
+    child=$!
+    exec 3>"$dir/fifo" # opens once qlux-recv has
+    head -c 60 "$dir/s" >&3
+    kill -$signal $child
+    wait $child
+    code=$?
+    exec 3>&-
+    [ $code -eq 3 ] && grep -q 'interrupted; nothing was written' "$dir/err" &&
+        [ "$(ls "$dir" | grep -c -e stop -e tmp)" -eq 0 ]
+    say "stopped_by_sig$(echo $signal | tr A-Z a-z)_exits_3_and_writes_nothing" $?
+done
+rm "$dir/fifo"
 
 "$recv" "$dir/none" -o "$dir/o.ppm" 2>/dev/null
 [ $? -eq 3 ]

@@ -140,7 +140,7 @@ static bool read_more(input_t *in)
     ssize_t n;
 
     if (cli_interrupted()) {
-        cli_fail(CLI_INPUT, "%s: interrupted", in->path);
+        cli_fail(CLI_IO, "%s: interrupted; nothing was written", in->path);
     }
     if (poll(&wait, 1, 500) <= 0) {
         return false;
@@ -397,7 +397,7 @@ static void check_complete(const picture_t *picture, const char *path)
 static void print_stats(const picture_t *picture, const input_t *in)
 {
     static const char *const keys[QL_STREAM_END_BYTES / 4] = {"status", "paths",
-            "closest_rays", "shadow_rays", "saturated", "ticks", "tick_hz",
+            "closest-rays", "shadow-rays", "saturated", "ticks", "tick-hz",
             "faint"};
     const uint32_t ticks = picture->end[5], hz = picture->end[6];
 
@@ -409,7 +409,7 @@ static void print_stats(const picture_t *picture, const input_t *in)
     }
     /* ticks < 2^32 and 10^9 < 2^30, so the product is < 2^62. */
     printf("nanoseconds: %llu\n", hz == 0 ? 0ull : ticks * 1000000000ull / hz);
-    printf("duplicate_lines: %lu\nbad_frames: %lu\nskipped_bytes: %llu\n",
+    printf("duplicate-lines: %lu\nbad-frames: %lu\nskipped-bytes: %llu\n",
             (unsigned long)picture->duplicates,
             (unsigned long)picture->bad_frames,
             (unsigned long long)in->skipped);
