@@ -86,7 +86,7 @@ printf 'P6\n1 1\n255\nabc' >dot.ppm
 printf 'PF\n1 1\n-1.0\n\0\0\300\177\0\0\200\077\0\0\0\100' >nan.pfm
 
 expect one_picture_is_code_1 1 'missing B ' "$diff" a.ppm
-expect the_help_tells_the_code_above_a_limit 0 'exit 1 if relmse' \
+expect the_help_tells_the_code_above_a_limit 0 'exit 4 if relmse' \
     "$diff" --help
 expect a_limit_that_is_no_number_is_code_1 1 'max-relmse x' \
     "$diff" a.ppm b.ppm --max-relmse x
@@ -116,15 +116,15 @@ expect byte_orders_of_pfm_agree 0 'identical: yes' "$diff" one.pfm big.pfm
 
 expect relmse_below_its_limit_is_code_0 0 relmse \
     "$diff" a.ppm b.ppm --max-relmse 0.0014
-expect relmse_above_its_limit_is_code_1 1 relmse \
+expect relmse_above_its_limit_is_code_4 4 relmse \
     "$diff" a.ppm b.ppm --max-relmse 0.0013
 expect bias_below_its_limit_is_code_0 0 bias \
     "$diff" a.ppm b.ppm --max-bias 0.03
-expect bias_above_its_limit_is_code_1 1 bias \
+expect bias_above_its_limit_is_code_4 4 bias \
     "$diff" a.ppm b.ppm --max-bias 0.02
 expect a_nan_makes_psnr_a_nan 0 '^psnr: -*nan$' "$diff" nan.pfm two.pfm
 expect a_nan_makes_max_a_nan 0 '^max: -*nan$' "$diff" nan.pfm two.pfm
-expect a_nan_is_above_every_limit 1 nan \
+expect a_nan_is_above_every_limit 4 nan \
     "$diff" nan.pfm two.pfm --max-relmse 1e30
 
 # The figures have the same names and order with a picture and without.
@@ -278,7 +278,7 @@ say a_page_too_large_prints_no_figures $?
 expect other_sizes_write_no_picture 2 '1x1.*2x1' "$diff" one.pfm a.ppm -o d.ppm
 [ ! -e d.ppm ]
 say a_failure_writes_nothing $?
-expect a_limit_does_not_stop_the_picture 1 relmse \
+expect a_limit_does_not_stop_the_picture 4 relmse \
     "$diff" a.ppm b.ppm --max-relmse 0.0013 -o d.ppm
 cp d.ppm old.ppm
 expect a_bad_picture_is_code_2_with_a_picture 2 'cut.ppm: byte 11' \

@@ -163,7 +163,7 @@ for signal in INT TERM; do
     exec 3>&-
     [ $code -eq 3 ] && grep -q 'interrupted; nothing was written' "$dir/err" &&
         [ "$(ls "$dir" | grep -c -e stop -e tmp)" -eq 0 ]
-    say "stopped_by_sig$(echo $signal | tr A-Z a-z)_exits_3_and_writes_nothing" $?
+    say "stopped_by_${signal}_exits_3_and_writes_nothing" $?
 done
 rm "$dir/fifo"
 

@@ -74,7 +74,7 @@ for scene in cornell glossy sky; do
     done
 done
 "$build/qlux-sim-draft" cornell.qlb -o core.pfm $picture --seed 1
-expect other_random_numbers_are_rejected 1 relmse \
+expect other_random_numbers_are_rejected 4 relmse \
     "$build/qlux-diff" core.pfm cornell.pfm --max-relmse 1e-4
 
 exit $((failures != 0))

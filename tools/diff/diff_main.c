@@ -25,9 +25,9 @@ static const option_t comparing[] = {
         {"A", OPTION_TEXT, AT(path[0]), .required = true},
         {"B", OPTION_TEXT, AT(path[1]), .required = true},
         {"--max-relmse X", OPTION_REAL, AT(relmse_max), .max = HUGE_VAL,
-                .help = "exit 1 if relmse is above X"},
+                .help = "exit 4 if relmse is above X"},
         {"--max-bias X", OPTION_REAL, AT(bias_max), .max = HUGE_VAL,
-                .help = "exit 1 if |bias| is above X"},
+                .help = "exit 4 if |bias| is above X"},
         OPTION_END};
 
 static const option_t drawing[] = {
@@ -68,7 +68,7 @@ static const program_t program = {.name = "qlux-diff",
                  "scale\tthe largest that is drawn\n"
                  "clipped\tpixels beyond it, drawn in full colour\n"
                  "undefined\tpixels whose difference is no number",
-        .exits = "1 also above a limit",
+        .exits = "4 above a limit",
         .example = "qlux-diff box.pfm box-ref.pfm --max-relmse 1e-6 "
                    "-o diff.png"};
 
@@ -181,5 +181,5 @@ int main(int argc, char **argv)
     /* A NaN is above every limit, but without a limit there is none. */
     above = (o.relmse_max < HUGE_VAL && !(n.relmse <= o.relmse_max)) ||
             (o.bias_max < HUGE_VAL && !(fabs(n.bias) <= o.bias_max));
-    return above ? CLI_USAGE : CLI_DONE;
+    return above ? CLI_ABOVE : CLI_DONE;
 }

@@ -54,8 +54,8 @@ size=$(wc -c <good.qlb)
 printf 'NOPE' >bad.qlb
 says another_file 'byte 0: not a qlux blob: expected "QLUX"'
 printf 'QL' >bad.qlb
-says a_file_of_two_bytes \
-    'byte 2: the blob is longer than the bytes given: expected a header of 88 bytes'
+says a_file_of_two_bytes "byte 2: the blob is longer than the bytes given: \
+expected a header of 88 bytes"
 patch 4 '\0143\0002'
 says another_version "byte 4: the blob's version is not the one this build \
 reads: expected version 1, found 611"

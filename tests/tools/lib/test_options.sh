@@ -7,7 +7,8 @@
 
 suite=tools/options
 . tests/support/workspace.sh
-version=$(sed -n 's/^#define QLUX_VERSION "\(.*\)"/\1/p' "$root/firmware/qlux.h")
+version=$(sed -n 's/^#define QLUX_VERSION "\(.*\)"/\1/p' \
+    "$root/firmware/qlux.h")
 
 # refuses PATTERN ARGUMENTS...: exit code 1, this line and no other is printed,
 # nothing is written
@@ -24,10 +25,11 @@ refuses() {
 # too many; - is none.
 while IFS='|' read -r program wrong stray; do
     "$build/$program" --help >help.txt 2>err.txt
-    [ $? -eq 0 ] && [ ! -s err.txt ] && head -n 1 help.txt | grep -q "^$program: "
+    [ $? -eq 0 ] && [ ! -s err.txt ] &&
+        head -n 1 help.txt | grep -q "^$program: "
     say "${program}_helps_by_its_own_name" $?
-    awk '/^Example:$/ { from = NR } END { exit !from || NR == from || !/^  / }' \
-        help.txt && sed '1,/^Example:$/d' help.txt | grep -q "^  $program "
+    sed '1,/^Example:$/d' help.txt >out.txt &&
+        grep -q "^  $program " out.txt && ! grep -qv '^  ' out.txt
     say "${program}_help_ends_in_an_example" $?
     ! grep -q '.\{80\}' help.txt
     say "${program}_help_is_below_80_columns" $?

@@ -2,10 +2,10 @@
 /* SPDX-License-Identifier: MIT */
 
 /* Exit codes are a contract: 0 done, 1 wrong usage, 2 bad input, 3 could not
- * read or write, or interrupted. Output goes to a temporary name beside its
- * target and is renamed when complete, so nothing half-written is ever left
- * behind: not by an error, not by a full disk, not by Ctrl-C. options.h takes
- * the command line. */
+ * read or write, or interrupted, 4 above a limit that was given. Output goes to
+ * a temporary name beside its target and is renamed when complete, so nothing
+ * half-written is ever left behind: not by an error, not by a full disk, not by
+ * Ctrl-C. options.h takes the command line. */
 
 #ifndef CLI_H
 #define CLI_H
@@ -15,7 +15,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { CLI_DONE = 0, CLI_USAGE = 1, CLI_INPUT = 2, CLI_IO = 3 };
+enum { CLI_DONE = 0, CLI_USAGE = 1, CLI_INPUT = 2, CLI_IO = 3, CLI_ABOVE = 4 };
 
 /* Begin: remembers the program's name for messages, catches SIGINT and SIGTERM
  * so that temporary files are removed. Call first in main(). */
