@@ -243,7 +243,8 @@ bad_sky() {
 }
 one='\0\0\200\077' minus='\0\0\200\277' nan='\0\0\300\177' zero='\0\0\0\0'
 bad_sky a_map_of_text_is_refused 'byte 0: expected a PFM' 'P6 1 1 255 abc'
-bad_sky a_map_without_width_is_refused 'byte 3: expected a width' 'PF\n0 1\n-1\n'
+bad_sky a_map_without_width_is_refused 'byte 3: expected a width' \
+    'PF\n0 1\n-1\n'
 bad_sky a_map_without_height_is_refused 'byte 5: expected a height' \
     'PF\n1 x\n-1\n'
 reset_input
@@ -257,9 +258,11 @@ bad_sky a_cut_map_is_refused 'byte 10: the pixels end too early' \
 bad_sky a_long_map_is_refused 'byte 10: unexpected bytes after' \
     "PF\n1 1\n-1\n$one$one$one$one"
 bad_sky a_negative_radiance_has_a_place \
-    'pixel 0 of row 1 from the top: expected a radiance from 0 to 1e+18, found -1' \
+    "pixel 0 of row 1 from the top: expected a radiance from 0 to 1e+18, \
+found -1" \
     "PF\n1 2\n-1\n$one$one$minus$one$one$one"
-bad_sky a_radiance_of_nan_has_a_place 'pixel 1 of row 0 from the top: expected a radiance' \
+bad_sky a_radiance_of_nan_has_a_place \
+    'pixel 1 of row 0 from the top: expected a radiance' \
     "Pf\n2 1\n-1\n$one$nan"
 bad_sky a_black_map_is_refused 'expected a radiance above 0' \
     "Pf\n2 1\n-1\n$zero$zero"
@@ -310,7 +313,8 @@ bad_table an_empty_table_is_refused 1 'expected dims D cells' '# nothing\n'
 bad_table a_table_without_dims_is_refused 1 'expected dims D cells' '1 2 3\n'
 bad_table a_table_of_4_dims_is_refused 1 'expected the dimensions' \
     'dims 4  cells 1 1 1 1\n'
-bad_table a_table_without_cells_is_refused 1 'expected dims D cells' 'dims 1 2\n'
+bad_table a_table_without_cells_is_refused 1 'expected dims D cells' \
+    'dims 1 2\n'
 bad_table a_table_of_0_cells_is_refused 1 'expected the cells' \
     'dims 1 cells 0\n'
 bad_table a_table_of_too_few_cells_is_refused 1 'expected the cells' \
@@ -371,7 +375,8 @@ bad_obj the_line_of_a_continued_face_is_its_first 5 'expected a corner' \
     'f 1 \\\n 2 \\\n x\n'
 good_obj polygons_become_fans 3 'v 1 1 1\nf 1 2 3 4 5\n'
 good_obj all_forms_of_corners_are_read 5 \
-    'f 1/1 2/2 3/3\nf 1//1 2//2 4//4\nf 1/1/1 2/2/2 3/3/3\nf 1/ 2/ 3/\nf -1 -2 -3\n'
+    'f 1/1 2/2 3/3\nf 1//1 2//2 4//4\nf 1/1/1 2/2/2 3/3/3\nf 1/ 2/ 3/\n'\
+'f -1 -2 -3\n'
 good_obj a_vertex_may_follow_its_face 1 'f 1 2 5\nv 1 1 1\n'
 good_obj an_empty_mesh_is_a_scene 0 ''
 good_obj a_scene_of_degenerate_faces_is_empty 0 'f 1 1 2\nf 1 2 2\n'
@@ -395,7 +400,8 @@ bad_mtl newmtl_without_a_name_is_refused 1 'expected newmtl NAME' 'newmtl\n'
 bad_mtl a_spectral_kd_is_refused 2 'expected a colour for Kd as RGB' \
     'newmtl w\nKd spectral x.rfl\n'
 reset_input
-printf 'newmtl w\nKd 2 0 0\nKs 1 1 1\nillum 9\nmap_Kd a.png\nmap_Kd b.png\n' >in/a.mtl
+printf 'newmtl w\nKd 2 0 0\nKs 1 1 1\nillum 9\n' >in/a.mtl
+printf 'map_Kd a.png\nmap_Kd b.png\n' >>in/a.mtl
 "$scene" in/a.scene -o out.qlb --quiet 2>err.txt
 say unmodelled_keys_of_materials_are_no_errors $?
 warns kd_above_1_is_reported 1 "in/a.mtl:2: Kd of 'w' clamped"
@@ -406,8 +412,8 @@ warns kd_and_ks_above_1_say_by_how_much 1 \
 warns maps_are_reported_once 1 "'map_Kd' is not modelled"
 rm -f out.qlb
 reset_input
-printf 'newmtl w\nKa 1 1 1\nKd 1 0 0\nKs 0 0 0\nNs 10\nNi 1.45\nd 1\nillum 2\n' \
-    >in/a.mtl
+printf 'newmtl w\nKa 1 1 1\nKd 1 0 0\nKs 0 0 0\nNs 10\n' >in/a.mtl
+printf 'Ni 1.45\nd 1\nillum 2\n' >>in/a.mtl
 "$scene" in/a.scene -o out.qlb --quiet 2>err.txt && [ ! -s err.txt ]
 say what_every_exporter_writes_is_silent $?
 rm -f out.qlb
@@ -431,7 +437,8 @@ gloss() {
     reset_input
     printf "newmtl w\n$2" >in/a.mtl
     "$scene" in/a.scene -o in/one.qlb --quiet 2>err.txt &&
-        [ "$("$scene" --dump in/one.qlb | sed -n 's/  0x0* 0x0* 0x0*$//; /^[mg] /p' |
+        [ "$("$scene" --dump in/one.qlb |
+            sed -n 's/  0x0* 0x0* 0x0*$//; /^[mg] /p' |
             tr '\n' ' ' | sed 's/0x//g; s/ $//')" = "$3" ]
     say "$1" $?
 }
@@ -467,16 +474,20 @@ warns ns_above_65535_is_reported 1 "in/a.mtl:4: Ns of 'w' clamped to 0..65535"
 gloss ns_is_clamped_below 'Kd 0.5\nKs 0.5\nNs -1\n' \
     "$plain g $half  00000000 40000000  1"
 gloss kd_and_ks_are_scaled_together 'Kd 0.9 0.3 0\nKs 0.6 0.6 0.3\nNs 1\n' \
-    "m 4ccccccd 1999999a 00000000 g 33333333 33333333 1999999a  00010000 471c71c7  1"
+    "m 4ccccccd 1999999a 00000000 \
+g 33333333 33333333 1999999a  00010000 471c71c7  1"
 warns scaling_is_reported 1 "Kd + Ks of 'w' is above 1: both scaled by 0.6667"
 gloss a_sum_of_1_is_not_scaled 'Kd 0.9 0.3 0.7\nKs 0.1 0.7 0.3\nNs 1\n' \
-    "m 73333333 26666666 5999999a g 0ccccccd 5999999a 26666666  00010000 2eeeeeef  1"
+    "m 73333333 26666666 5999999a \
+g 0ccccccd 5999999a 26666666  00010000 2eeeeeef  1"
 [ ! -s err.txt ]
 say a_sum_of_1_is_silent $?
 gloss a_trace_of_ks_keeps_a_chance 'Kd 1 1 1\nKs 0 0 1e-9\nNs 1\n' \
-    "m 7ffffffe 7ffffffe 7ffffffe g 00000000 00000000 00000002  00010000 00000001  1"
+    "m 7ffffffe 7ffffffe 7ffffffe \
+g 00000000 00000000 00000002  00010000 00000001  1"
 gloss a_trace_of_kd_keeps_a_chance 'Kd 0 0 1e-9\nKs 1 1 1\nNs 1\n' \
-    "m 00000000 00000000 00000002 g 7ffffffe 7ffffffe 7ffffffe  00010000 7fffffff  1"
+    "m 00000000 00000000 00000002 \
+g 7ffffffe 7ffffffe 7ffffffe  00010000 7fffffff  1"
 reset_input
 printf 'newmtl d\nKd 0.1\nnewmtl g\nKd 0.2\nKs 0.5\nNs 1\n' >in/a.mtl
 printf 'newmtl e\nKd 0.3\nnewmtl h\nKd 0.4\nKs 0.5\nNs 1\n' >>in/a.mtl

@@ -211,11 +211,14 @@ static void parse_line(parser_t *p, text_t *text)
     text_fail(text, "expected a key of a dump, found '%s'", key);
 }
 
-/* A table is there if a feature needs it, and whole. */
-static void check_part(const part_t *part, const text_t *text, bool needed)
+/* A table is there if and only if these features need it, and it is whole. */
+static void check_part(
+        const part_t *part, const text_t *text, uint32_t features)
 {
     const blob_table_t *table = part->table;
-    const bool bad = needed ? part->count < table->count_min : part->count > 0;
+    const bool bad = blob_has_table(table, features)
+                             ? part->count < table->count_min
+                             : part->count > 0;
 
     if (!is_between(part) || part->count % table->repeat != 0 ||
             (bad && table->features == 0)) {
@@ -234,14 +237,13 @@ static void finish(parser_t *p, model_t *model, const text_t *text)
     part_t *header = p->parts + HEADER;
     model_table_t tables[BLOB_TABLE_COUNT];
 
-    check_part(header, text, true);
+    check_part(header, text, 0);
     memcpy(&model->header, header->entries, sizeof model->header);
     free(header->entries);
     for (int i = 0; i < BLOB_TABLE_COUNT; i++) {
         const part_t *part = p->parts + i;
 
-        check_part(part, text,
-                blob_has_table(part->table, model->header.features));
+        check_part(part, text, model->header.features);
         tables[i].entries = part->entries;
         tables[i].count = (uint32_t)(part->count / part->table->repeat);
     }

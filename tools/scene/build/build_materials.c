@@ -122,22 +122,24 @@ static void round_emission(uint32_t emission[3],
     }
 }
 
-/* Add the materials in use that have gloss, or those that have none, in the
- * order of their definition. */
+typedef enum { DIFFUSE, GLOSSY } lobes_t;
+
+/* Add the materials in use that are glossy, or those that are diffuse only, in
+ * the order of their definition. */
 static void place_kind(model_t *model, const world_t *world, const bool *used,
-        uint32_t *place, bool glossy)
+        uint32_t *place, lobes_t lobes)
 {
     for (size_t m = 0; m < world->material_count; m++) {
         ql_blob_material_t material;
         ql_blob_gloss_t gloss;
 
         if (!used[m] || build_materials_round(material.albedo, &gloss,
-                                world->materials + m) != glossy) {
+                                world->materials + m) != (lobes == GLOSSY)) {
             continue;
         }
         round_emission(material.emission, world->materials + m,
                 model->header.radiance_exp);
-        if (glossy) {
+        if (lobes == GLOSSY) {
             model->gloss[model->gloss_count++] = gloss;
         }
         place[m] = model->materials_count;
@@ -158,8 +160,8 @@ void build_materials(model_t *model, const world_t *world, const grid_t *grid,
     model->header.radiance_exp = (int16_t)choose_exponent(world, used);
     model->materials = cli_alloc(count, sizeof *model->materials);
     model->gloss = cli_alloc(count, sizeof *model->gloss);
-    place_kind(model, world, used, place, true);
-    place_kind(model, world, used, place, false);
+    place_kind(model, world, used, place, GLOSSY);
+    place_kind(model, world, used, place, DIFFUSE);
     if (model->materials_count > QL_MATERIAL_MAX) {
         cli_fail(CLI_INPUT, "%s: expected %lu materials at most, found %lu",
                 world->path, (unsigned long)QL_MATERIAL_MAX,
