@@ -76,7 +76,7 @@ const char *picture_fail(const char *name, const double *actual,
         const double *wanted, unsigned width, unsigned height)
 {
     static const char *const kinds[2] = {"actual", "diff"};
-    static char path[256];
+    static char path[512];
     const size_t count = (size_t)width * height;
     double white = 1e-30;
 
