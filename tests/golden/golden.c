@@ -31,7 +31,7 @@
 #include "warp/ql_lobe.h"
 #include "sample/ql_sampler.h"
 #include "sample/ql_sobol.h"
-#include "support/picture/built.h"
+#include "support/built.h"
 #include "warp/ql_spherical.h"
 #include "warp/ql_square.h"
 #include "warp/ql_warp.h"

@@ -1,8 +1,7 @@
 /* ql_double.h - pi and products of vectors in double, for expected values */
 /* SPDX-License-Identifier: MIT */
 
-/* tests/known/double/double_pt.c and tests/bench/rays/float_pt.c have their own:
- * tracers that share nothing. */
+/* double_pt.c and float_pt.c have their own: tracers that share nothing. */
 
 #ifndef QL_DOUBLE_H
 #define QL_DOUBLE_H

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "support/picture/built.h"
+#include "support/built.h"
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"

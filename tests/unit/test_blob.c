@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "base/ql_crc.h"
-#include "support/picture/built.h"
+#include "support/built.h"
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
