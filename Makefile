@@ -28,7 +28,8 @@ HOST = -std=c99 -pedantic $(WARN) $(CPPFLAGS) $(CFLAGS) \
 
 include tools/dev/rules.mk tools/dev/variables.mk
 
-core_src := $(sort $(filter-out firmware/app/%,$(wildcard firmware/*/*.c)))
+core_src := $(sort $(filter-out firmware/app/%,$(wildcard firmware/*/*.c \
+    firmware/*/*/*.c)))
 fine := $(core_src:%.c=$O/fine/%.o)
 draft := $(core_src:%.c=$O/draft/%.o)
 io := $O/host/lib.a
@@ -128,7 +129,8 @@ run-pc: $O/$(scene).ppm
 	$(if $(silent),,@echo $<)
 
 luts: $O/qlux-lut ## Regenerate the core's tables
-	$(call step,LUT,firmware/math/ql_lut_data.c)$< -o firmware/math/ql_lut_data.c
+	$(call step,LUT,firmware/math/lut/ql_lut_data.c)$< \
+	    -o firmware/math/lut/ql_lut_data.c
 
 warp-plots: $O/qlux-warp ## Draw the warps of tools/README.md: build/warp-*.svg
 	@for m in 1 2 8 16; do $< plot cosine-power -m $$m \

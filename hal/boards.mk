@@ -32,7 +32,8 @@ board_tags += $(if $(filter 1,$(EMULATED)),emulated)
 board_name := $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
     -,$(board_tags)))$(VARIANT)
 
-board_src := $(or $(FIRMWARE_SRC),$(sort $(wildcard firmware/*/*.c))) \
+board_src := $(or $(FIRMWARE_SRC),$(sort $(wildcard firmware/*/*.c \
+    firmware/*/*/*.c))) \
     $(sort $(filter-out hal/ql_main.c,$(wildcard hal/*.c))) $(BOARD_MAIN) \
     hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
 board_obj := $(patsubst %,$(board_name)/%.o,$(board_src))

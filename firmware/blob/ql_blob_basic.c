@@ -3,7 +3,7 @@
 
 #include "blob/ql_blob_parts.h"
 
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 
 /* Find a table: aligned, after the header, entirely inside the blob. Entries of
  * a blob below 4 GB: entry_bytes * count_max fits 32 bits. */

@@ -3,7 +3,7 @@
 
 #include "film/ql_tonemap.h"
 
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 
 #define WHITE_UQ16 65536u
 #define WHITE_UQ8  65280u /* 255, u8.8 */

@@ -6,11 +6,11 @@
 #if QL_CFG_SPHERES
 
 #include "material/ql_diffuse.h"
-#include "math/ql_frame.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_frame.h"
+#include "math/vec/ql_vec_unit.h"
 #include "trace/ql_sphere.h"
-#include "warp/ql_lobe.h"
-#include "warp/ql_warp.h"
+#include "warp/ql_warp_cone.h"
+#include "warp/ql_warp_sphere.h"
 
 /* 1/256 grid units to a position, to nearest. */
 static ql_pos_t pos_from_q8(int64_t x)
@@ -91,7 +91,7 @@ static bool sample_area(const ql_blob_sphere_t *sphere, ql_vec3_t offset,
 static ql_real_t cone_of(
         const ql_blob_sphere_t *sphere, ql_real_t distance_squared)
 {
-    return ql_cone_of_sphere(ql_real_mul(
+    return ql_warp_cone_of_sphere(ql_real_mul(
             radius_squared(sphere), ql_real_recip(distance_squared)));
 }
 

@@ -4,9 +4,9 @@
 #include "light/ql_emit_triangle.h"
 
 #include "light/ql_light.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_spherical.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_vec_unit.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_spherical.h"
 
 /* ---- A point of its area ----------------------------------------------- */
 
@@ -36,7 +36,7 @@ void ql_emit_triangle_point(const ql_scene_t *scene, uint16_t light,
     const ql_edges_t t = ql_scene_edges(scene, tri);
     uint32_t b1, b2;
 
-    ql_warp_triangle(u.u1, u.u2, &b1, &b2);
+    ql_warp_plane_triangle(u.u1, u.u2, &b1, &b2);
     point->q.x = blend(t.v0.x, t.e1.x, t.e2.x, b1, b2);
     point->q.y = blend(t.v0.y, t.e1.y, t.e2.y, b1, b2);
     point->q.z = blend(t.v0.z, t.e1.z, t.e2.z, b1, b2);
@@ -160,7 +160,7 @@ static seen_t sample_solid_angle(const ql_scene_t *scene,
         ql_emit_sample_t *sample)
 {
     ql_vec3_t v[3], n;
-    ql_spherical_t seen;
+    ql_warp_spherical_t seen;
     int64_t height;
 
     for (unsigned i = 0; i < 3; i++) {
@@ -175,12 +175,12 @@ static seen_t sample_solid_angle(const ql_scene_t *scene,
     if (height <= 0) {
         return SEEN_NOTHING;
     }
-    if (!ql_spherical_begin(&seen, corner_from(v[0], surface->p),
+    if (!ql_warp_spherical_begin(&seen, corner_from(v[0], surface->p),
                 corner_from(v[1], surface->p), corner_from(v[2], surface->p))) {
         return SEEN_BADLY;
     }
-    if (!ql_emit_set_wi(sample, surface,
-                ql_warp_spherical_triangle(&seen, u.u1, u.u2))) {
+    if (!ql_emit_set_wi(
+                sample, surface, ql_warp_spherical(&seen, u.u1, u.u2))) {
         return SEEN_NOTHING;
     }
     sample->inv_pdf = seen.solid_angle;

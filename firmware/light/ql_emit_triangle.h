@@ -62,7 +62,7 @@ QL_INLINE uint64_t ql_emit_triangle_facing(const ql_scene_t *scene,
  *   scene    -     open
  *   direct   -     AREA or MIS: a uniform point; SOLID_ANGLE: uniform on the
  *                  triangle as seen, or a point where that is too small or
- *                  too large (ql_spherical_begin())
+ *                  too large (ql_warp_spherical_begin())
  *   light    -     index of the light
  *   surface  -     to be lit
  *   u        uq32  chooses the direction

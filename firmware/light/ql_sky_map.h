@@ -9,7 +9,7 @@
 #define QL_SKY_MAP_H
 
 #include "math/ql_real.h"
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 #include "scene/ql_scene.h"
 
 #if QL_CFG_SKY_MAP

@@ -22,7 +22,7 @@
 
 #include "base/ql_density.h"
 #include "math/ql_rgb.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"

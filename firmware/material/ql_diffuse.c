@@ -4,16 +4,15 @@
 #include "material/ql_diffuse.h"
 
 #include "material/ql_shading.h"
-#include "math/ql_frame.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_lobe.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_frame.h"
+#include "math/vec/ql_vec_unit.h"
+#include "warp/ql_warp_hemisphere.h"
 
 ql_vec3_t ql_diffuse_direction(const ql_surface_t *surface, ql_uniform2_t u)
 {
     const ql_vec3_t n = ql_shading_flat_normal(surface);
     const ql_vec3_t wi =
-            ql_vec_to_dir(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
+            ql_vec_to_dir(ql_warp_hemisphere_cosine(n, u.u1, u.u2));
 
     return ql_shading_is_above(surface, wi) ? wi : ql_vec_to_dir(n);
 }
@@ -26,20 +25,11 @@ ql_real_t ql_diffuse_pdf(ql_real_t cosine)
 ql_vec3_t ql_diffuse_unit(const ql_surface_t *surface, ql_uniform2_t u)
 {
     const ql_vec3_t n = ql_shading_normal(surface);
-    const ql_vec3_t w = ql_warp_cosine_hemisphere(n, u.u1, u.u2);
+    const ql_vec3_t w = ql_warp_hemisphere_cosine(n, u.u1, u.u2);
     const ql_real_t square = ql_vec_square(w);
 
     return square.m == 0 ? w
                          : ql_vec_unit_q29_of_length(w, ql_real_sqrt(square));
-}
-
-/* Density of n + a point of the unit sphere: 2 cos^2 is its dot product with n,
- * which rounding may leave at 0 or less; a density never is. */
-static ql_real_t pdf_of_product(int64_t product)
-{
-    const uint64_t twice = product > 0 ? (uint64_t)product : 1u; /* 2^-58 */
-
-    return ql_diffuse_pdf(ql_real_sqrt(ql_real_from_uq_call(twice, 59)));
 }
 
 /* Cosine-distributed. About a smooth normal it may be below the surface. */
@@ -47,7 +37,7 @@ static bool draw_cosine(const ql_surface_t *surface, ql_uniform2_t u,
         ql_bsdf_sample_t *sample, ql_real_t *pdf)
 {
     const ql_vec3_t n = ql_shading_normal(surface);
-    const ql_vec3_t w = ql_warp_cosine_hemisphere(n, u.u1, u.u2);
+    const ql_vec3_t w = ql_warp_hemisphere_cosine(n, u.u1, u.u2);
     bool above;
 
     sample->wi = ql_vec_to_dir(w);
@@ -56,7 +46,8 @@ static bool draw_cosine(const ql_surface_t *surface, ql_uniform2_t u,
         sample->wi = ql_vec_to_dir(n); /* as ql_diffuse_direction() */
     }
     if (ql_bsdf_wants_pdf(pdf)) {
-        *pdf = above ? pdf_of_product(ql_vec_dot_call(w, n)) : QL_REAL_INV_PI;
+        *pdf = above ? ql_warp_hemisphere_cosine_pdf(ql_vec_dot_call(w, n))
+                     : QL_REAL_INV_PI;
     }
     return above || !ql_surface_is_smooth(surface);
 }
@@ -65,7 +56,7 @@ static bool draw_cosine(const ql_surface_t *surface, ql_uniform2_t u,
 static bool draw_uniform(const ql_surface_t *surface, ql_uniform2_t u,
         ql_bsdf_sample_t *sample, ql_real_t *ratio)
 {
-    const ql_vec3_t local = ql_warp_uniform_hemisphere(u.u1, u.u2);
+    const ql_vec3_t local = ql_warp_hemisphere_uniform(u.u1, u.u2);
     ql_frame_t frame;
 
     ql_frame_from_normal(&frame, ql_shading_normal(surface));

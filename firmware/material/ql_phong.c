@@ -6,9 +6,9 @@
 #if QL_CFG_PHONG
 
 #include "material/ql_shading.h"
-#include "math/ql_frame.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_lobe.h"
+#include "math/vec/ql_frame.h"
+#include "math/vec/ql_vec_unit.h"
+#include "warp/ql_warp_lobe.h"
 
 /* Weigh a factor, given 1 / (n + 1). */
 static bool set_weight(const ql_bsdf_t *bsdf, ql_real_t inverse,
@@ -28,8 +28,9 @@ static bool set_weight(const ql_bsdf_t *bsdf, ql_real_t inverse,
 
 bool ql_phong_weight(const ql_bsdf_t *bsdf, ql_real_t factor, ql_rgb_t *weight)
 {
-    return set_weight(bsdf, ql_lobe_inverse(QL_LE32(bsdf->gloss->parameter)),
-            factor, weight);
+    return set_weight(bsdf,
+            ql_warp_lobe_inverse(QL_LE32(bsdf->gloss->parameter)), factor,
+            weight);
 }
 
 ql_real_t ql_phong_pdf(const ql_bsdf_t *bsdf, ql_vec3_t wi)
@@ -41,7 +42,7 @@ ql_real_t ql_phong_pdf(const ql_bsdf_t *bsdf, ql_vec3_t wi)
     if (square >> 59 != 0) {
         return QL_REAL_ZERO;
     }
-    return ql_warp_power_lobe_pdf(QL_LE32(bsdf->gloss->parameter),
+    return ql_warp_lobe_pdf(QL_LE32(bsdf->gloss->parameter),
             (uint32_t)((square + ((uint32_t)1 << 27)) >> 28));
 }
 
@@ -49,7 +50,7 @@ bool ql_phong_sample(const ql_bsdf_t *bsdf, ql_uniform2_t u,
         ql_bsdf_sample_t *sample, ql_real_t *pdf)
 {
     const ql_uq16_t power = QL_LE32(bsdf->gloss->parameter);
-    const ql_real_t inverse = ql_lobe_inverse(power);
+    const ql_real_t inverse = ql_warp_lobe_inverse(power);
     ql_real_t cosine;
     ql_frame_t frame;
     ql_vec3_t w;
@@ -57,7 +58,7 @@ bool ql_phong_sample(const ql_bsdf_t *bsdf, ql_uniform2_t u,
     int64_t above;
 
     ql_frame_from_normal(&frame, bsdf->mirror);
-    w = ql_frame_to_world(&frame, ql_warp_power_lobe(inverse, u.u1, u.u2, &s));
+    w = ql_frame_to_world(&frame, ql_warp_lobe(inverse, u.u1, u.u2, &s));
     sample->wi = ql_vec_to_dir(w);
     above = ql_vec_dot_call(w, bsdf->n); /* 2^-58 */
     if (above <= 0 || !ql_shading_is_above(bsdf->surface, sample->wi)) {
@@ -66,7 +67,7 @@ bool ql_phong_sample(const ql_bsdf_t *bsdf, ql_uniform2_t u,
     if (ql_bsdf_wants_pdf(pdf)) {
         /* rounded, s may be 1, where the density ends */
         s = s < QL_UQ31_ONE ? s : QL_UQ31_ONE - 1;
-        *pdf = ql_warp_power_lobe_pdf(power, s);
+        *pdf = ql_warp_lobe_pdf(power, s);
     }
     cosine = ql_real_from_uq_call((uint64_t)above, 58);
     cosine = ql_real_less(cosine, QL_REAL_ONE) ? cosine : QL_REAL_ONE;

@@ -8,7 +8,7 @@
 #ifndef QL_SHADING_H
 #define QL_SHADING_H
 
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "scene/ql_surface.h"
 
 /* Unit flat normal.

@@ -81,14 +81,6 @@ QL_INLINE int32_t ql_mulhi_su32(int32_t a, uint32_t b)
 #endif
 }
 
-/* floor(a b / 2^16) for a 16-bit unsigned b; |a| <= 2^31, so it fits. */
-QL_INLINE int32_t ql_mul_s32_u16(int32_t a, uint32_t b)
-{
-    const uint32_t low = ((uint32_t)a & 0xffffu) * b;
-
-    return ql_asr32(a, 16) * (int32_t)b + (int32_t)(low >> 16);
-}
-
 /* The whole product of two 32-bit numbers. */
 QL_INLINE uint64_t ql_product_u32(uint32_t a, uint32_t b)
 {

@@ -10,7 +10,7 @@
 #define QL_REAL_H
 
 #include "math/ql_fx.h"
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 
 typedef struct {
     uint32_t m;
@@ -25,7 +25,7 @@ typedef struct {
  *             |e| <= 160
  *   products  no value of the renderer is a product of more than 16 of those
  *             and of two densities of a cos^m lobe, which end at 2^-4096
- *             (ql_warp_power_lobe_pdf()): |e| < 16 160 + 2 4256 < 11100
+ *             (ql_warp_lobe_pdf()): |e| < 16 160 + 2 4256 < 11100
  *   colours   a path multiplies its throughput up by less than 2^64 at each of
  *             its 64 bounces, so by 2^4096 in all; ql_rgb.c makes one below
  *             2^QL_RGB_EXP_MIN zero. A colour times a value of the renderer is
@@ -225,5 +225,14 @@ ql_real_t ql_real_sqrt(ql_real_t a);
  * Error: relative, that of ql_rsqrt_warp_m() and 2 ulp; exact for 0.
  */
 ql_uq32_t ql_sqrt_uq32(ql_uq32_t x);
+
+/* Square root of a real number below 1.
+ *
+ *   a       real  in [0, 1)
+ *   return  u0.32, cut below 1
+ *
+ * Error: relative, that of ql_rsqrt_warp_m() and 3 ulp; exact for 0.
+ */
+ql_uq32_t ql_sqrt_uq32_of_real(ql_real_t a);
 
 #endif

@@ -3,7 +3,7 @@
 
 #include "math/ql_trig.h"
 
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 
 #define CELL_SHIFT (30 - QL_SIN_BITS) /* turn32 bits in one cell */
 

@@ -7,7 +7,7 @@
 #include "light/ql_emit_sky.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
 
 /* Points of triangles, seen from flat diffuse surfaces, are all there is. */

@@ -41,4 +41,25 @@ QL_INLINE uint16_t ql_cdf_sample(
     return (uint16_t)low; /* < count */
 }
 
+/* Probability of one entry.
+ *
+ *   cum     uq32      as for ql_cdf_sample()
+ *   stride  words     likewise
+ *   count   -         likewise
+ *   entry   0..count-1
+ *   return  2^-32     0..2^32: the mass that ql_cdf_sample() chooses it with
+ *
+ * Exact: over all entries the masses sum to 2^32.
+ */
+QL_INLINE uint64_t ql_cdf_pmf(
+        const uint32_t *cum, unsigned stride, uint16_t count, uint16_t entry)
+{
+    const uint32_t next = (uint32_t)entry + 1;
+    const uint64_t end =
+            next < count ? QL_LE32(cum[next * stride]) : (uint64_t)1 << 32;
+
+    QL_ASSERT(entry < count);
+    return end - QL_LE32(cum[(uint32_t)entry * stride]);
+}
+
 #endif

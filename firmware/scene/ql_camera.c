@@ -3,7 +3,7 @@
 
 #include "scene/ql_camera.h"
 
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "scene/ql_lens.h"
 
 /* The box in s.16 grid units. */

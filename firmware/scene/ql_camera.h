@@ -74,7 +74,8 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
  *
  * Error: origin within an ulp of its format in each component, direction within
  *        that of ql_vec_to_dir(). A point of the lens is that of
- *        ql_warp_disk(), cut to 2^-15 grid units and 2^-29 of a direction.
+ *        ql_warp_plane_disk(), cut to 2^-15 grid units and to 2^-29 of a
+ *        direction.
  */
 bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
         ql_uniform2_t lens, ql_ray_t *ray);

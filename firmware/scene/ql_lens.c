@@ -3,7 +3,7 @@
 
 #include "scene/ql_lens.h"
 
-#include "warp/ql_square.h"
+#include "warp/ql_warp_plane.h"
 
 #if QL_CFG_LENS
 
@@ -13,7 +13,8 @@ void ql_lens_init(ql_camera_t *camera, const ql_scene_t *scene, uint8_t down)
     camera->down = down;
 }
 
-/* Both halves, each below 2^62 in size, and what ql_warp_disk() may err by. */
+/* Both halves, each below 2^62 in size, and what ql_warp_plane_disk() may err
+ * by. */
 static uint64_t reach_of(int64_t first, int64_t second)
 {
     const uint64_t sum = ql_abs64(first) + ql_abs64(second);
@@ -47,7 +48,7 @@ void ql_lens_move(const ql_camera_t *camera, ql_uniform2_t u, int64_t at[6])
     if (lens == NULL) {
         return;
     }
-    ql_warp_disk(u.u1, u.u2, &a[0], &a[1]);
+    ql_warp_plane_disk(u.u1, u.u2, &a[0], &a[1]);
     for (unsigned i = 0; i < 6; i++) {
         /* p in s31.16 = high 2^16 + low: products below 2^60 */
         const unsigned k = i >> 1;

@@ -21,7 +21,7 @@
 void ql_lens_init(ql_camera_t *camera, const ql_scene_t *scene, uint8_t down);
 
 /* How much a lens adds to an axis of the origin or of the direction at most,
- * what ql_warp_disk() may err by included.
+ * what ql_warp_plane_disk() may err by included.
  *
  *   scene   -  open
  *   axis    -  0..2
@@ -36,7 +36,7 @@ uint64_t ql_lens_direction_reach(const ql_scene_t *scene, unsigned axis);
 /* Move a ray to a point of the lens.
  *
  *   camera  -     with its lens
- *   u       uq32  where on the lens, by ql_warp_disk()
+ *   u       uq32  where on the lens, by ql_warp_plane_disk()
  *   at      -     moved: x, y, z of the origin, s31.16, and of the direction,
  *                 s1.30
  *

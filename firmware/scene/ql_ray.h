@@ -4,7 +4,7 @@
 #ifndef QL_RAY_H
 #define QL_RAY_H
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 
 /* A ray from a point of the box [0, 32767]^3. A closest-hit ray has no end and
  * its direction's largest component is 2^(b-1)..2^b; a segment goes from origin

@@ -4,7 +4,7 @@
 #ifndef QL_SCENE_H
 #define QL_SCENE_H
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 #include "scene/ql_blob.h"
 
 /* A checked, read-only view of a blob. Only ql_blob_open() may fill one. */

@@ -4,7 +4,7 @@
 #ifndef QL_SURFACE_H
 #define QL_SURFACE_H
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 
 /* A point on a surface, moved to the side it was seen from. The normal n
  * decides sides, exactly: of a triangle e1 x e2, of a sphere the vector between

@@ -3,7 +3,7 @@
 
 #include "trace/ql_surface_at.h"
 
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "trace/ql_sphere.h"
 #include "trace/ql_tri.h"
 

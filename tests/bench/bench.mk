@@ -36,8 +36,8 @@ $(warps_obj_both): HOST += -I$O
 $(warps_obj_both): $O/bench_tables.h tests/bench/warps/warp_list.h
 
 # The layers that warps need.
-warps_src := $(sort $(wildcard $(addprefix \
-    firmware/,base/*.c math/*.c sample/*.c warp/*.c)))
+warps_src := $(sort $(foreach l,base math sample warp,$(wildcard \
+    firmware/$l/*.c firmware/$l/*/*.c)))
 
 $O/warps-pc: $(warps_obj:%=$O/fine/%) $(warps_src:%.c=$O/fine/%.o)
 	$(link)

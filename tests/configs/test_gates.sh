@@ -99,7 +99,8 @@ if [ "${1:-}" = --triples ]; then
         # shellcheck disable=SC2086
         if (cd "$work" && $CC -std=c99 -pedantic -ffreestanding -fPIC \
             $warnings -Werror -O0 -g0 -pipe $flags -I"$root/firmware" \
-            -I"$root/hal" -shared -nostdlib "$root"/firmware/*/*.c -o core.so) \
+            -I"$root/hal" -shared -nostdlib \
+            "$root"/firmware/*/*.c "$root"/firmware/*/*/*.c -o core.so) \
             2> "$work/errors" &&
             nm -u "$work/core.so" > "$work/undefined" &&
             ! grep ' ql_' "$work/undefined" |

@@ -46,7 +46,7 @@ le32 0 >>"$work/blobs.bin"
 
 # ---- Case 55: one number everywhere ----
 
-sources=$(ls firmware/*/*.c | grep -v /app/)
+sources=$(ls firmware/*/*.c firmware/*/*/*.c | grep -v /app/)
 
 # digest NAME PRECISION RUNNER COMPILER FLAGS FILE: the number, or nothing
 digest() {

@@ -6,7 +6,7 @@
 #include "support/picture/estimate.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
-#include "sample/ql_alias.h"
+#include "sample/lecture/ql_alias.h"
 #include "sample/ql_cdf.h"
 #include "sample/ql_sampler.h"
 #include "sample/ql_sobol.h"

@@ -13,7 +13,6 @@
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
 #include "render/ql_direct.h"
-#include "warp/ql_warp.h"
 #include "trace/ql_sphere.h"
 
 #define RADIANCE 0.5

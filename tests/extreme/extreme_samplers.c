@@ -7,13 +7,16 @@
 #include "support/ql_double.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
-#include "math/ql_vec_unit.h"
-#include "sample/ql_alias.h"
-#include "warp/ql_lobe.h"
+#include "math/vec/ql_vec_unit.h"
+#include "sample/lecture/ql_alias.h"
+#include "warp/lecture/ql_warp_lecture.h"
+#include "warp/ql_warp_cone.h"
+#include "warp/ql_warp_hemisphere.h"
+#include "warp/ql_warp_lobe.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_sphere.h"
+#include "warp/ql_warp_spherical.h"
 #include "sample/ql_sampler.h"
-#include "warp/ql_spherical.h"
-#include "warp/ql_square.h"
-#include "warp/ql_warp.h"
 #include "material/ql_bsdf.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
@@ -59,14 +62,14 @@ static void check_lobes(ql_uq32_t u1, ql_uq32_t u2, unsigned c)
     static const ql_real_t widths[] = {{0x80000000u, -31}, {0xffffffffu, -32},
             {0x80000000u, -60}, {0x80000000u, -126}, {0, 0}};
 
-    check_unit(ql_warp_uniform_hemisphere(u1, u2), true, "hemisphere", c);
-    check_unit(ql_warp_naive_hemisphere(u1, u2), true, "naive", c);
-    check_unit(ql_warp_cosine_lobe(u1, u2), true, "cosine", c);
+    check_unit(ql_warp_hemisphere_uniform(u1, u2), true, "hemisphere", c);
+    check_unit(ql_warp_lecture_naive(u1, u2), true, "naive", c);
+    check_unit(ql_warp_lecture_cosine(u1, u2), true, "cosine", c);
     check_unit(ql_warp_sphere(u1, u2), false, "sphere", c);
     for (unsigned i = 0; i < POWERS; i++) {
         ql_uq31_t s;
 
-        check_unit(ql_warp_power_lobe(ql_lobe_inverse(powers[i]), u1, u2, &s),
+        check_unit(ql_warp_lobe(ql_warp_lobe_inverse(powers[i]), u1, u2, &s),
                 true, "power", c);
         CHECK(s <= QL_UQ31_ONE, "power %lu: s %lu", (unsigned long)powers[i],
                 (unsigned long)s);
@@ -81,14 +84,15 @@ static void check_plane(ql_uq32_t u1, ql_uq32_t u2, unsigned c)
     ql_q29_t x, y;
     uint32_t b1, b2;
 
-    ql_warp_disk(u1, u2, &x, &y);
+    ql_warp_plane_disk(u1, u2, &x, &y);
     CHECK(hypot(x, y) * ONE <= 1 + DISK_MAX, "disk, corner %u: %.9f", c,
             hypot(x, y) * ONE);
-    ql_warp_triangle(u1, u2, &b1, &b2);
+    ql_warp_plane_triangle(u1, u2, &b1, &b2);
     CHECK((uint64_t)b1 + b2 < (uint64_t)1 << QL_BARY_BITS,
             "triangle, corner %u: %lu + %lu", c, (unsigned long)b1,
             (unsigned long)b2);
-    CHECK(ql_warp_tent_pdf(ql_warp_tent(u1, u2)) > 0, "tent, corner %u", c);
+    CHECK(ql_warp_lecture_tent_pdf(ql_warp_lecture_tent(u1, u2)) > 0,
+            "tent, corner %u", c);
 }
 
 /* About the axes and a slanted normal the cosine direction is above them. */
@@ -100,7 +104,7 @@ static void check_cosine(ql_uq32_t u1, ql_uq32_t u2, unsigned c)
 
     for (unsigned i = 0; i < sizeof normals / sizeof normals[0]; i++) {
         const ql_vec3_t n = normals[i];
-        const ql_vec3_t v = ql_warp_cosine_hemisphere(n, u1, u2);
+        const ql_vec3_t v = ql_warp_hemisphere_cosine(n, u1, u2);
         const ql_vec3_t d = ql_vec_to_dir(v);
         const double cosine =
                 ((double)v.x * n.x + (double)v.y * n.y + (double)v.z * n.z) *
@@ -121,10 +125,10 @@ static void check_triangle_seen(ql_uq32_t u1, ql_uq32_t u2, unsigned c)
 {
     static const ql_vec3_t a = {10000, 0, 0}, b = {0, 10000, 0};
     static const ql_vec3_t far = {0, 0, 10000};
-    ql_spherical_t t;
+    ql_warp_spherical_t t;
 
-    CHECK(ql_spherical_begin(&t, a, b, far), "an octant");
-    check_unit(ql_warp_spherical_triangle(&t, u1, u2), false, "octant", c);
+    CHECK(ql_warp_spherical_begin(&t, a, b, far), "an octant");
+    check_unit(ql_warp_spherical(&t, u1, u2), false, "octant", c);
 }
 
 TEST(case_01_every_sampler_stays_in_its_domain_at_all_four_corners)
@@ -234,14 +238,14 @@ static void check_powers(void)
 {
     for (unsigned i = 0; i < POWERS; i++) {
         const double m1 = powers[i] * 0x1p-16 + 1;
-        const ql_real_t inverse = ql_lobe_inverse(powers[i]);
+        const ql_real_t inverse = ql_warp_lobe_inverse(powers[i]);
         distance_t d = {0, 0, 0};
 
         /* a large u1 is near the axis: from the last to the first */
         for (uint32_t k = 65536; k-- > 0;) {
             ql_uq31_t s;
 
-            (void)ql_warp_power_lobe(inverse, middle(k), 0, &s);
+            (void)ql_warp_lobe(inverse, middle(k), 0, &s);
             add_to(&d, -expm1(m1 * log1p(-ldexp(s, -31))));
         }
         /* s to nearest and 2^-24 of itself: F = 1 - (1 - s)^m1 moves by m1
@@ -262,13 +266,14 @@ TEST(case_03_marginals_of_all_16_bit_numbers_are_half_a_step_off)
         ql_q29_t x, y;
         double z;
 
-        add_to(&hemisphere, ql_warp_uniform_hemisphere(u, 0).z * ONE);
-        z = ql_warp_cosine_lobe(down, 0).z * ONE;
+        add_to(&hemisphere, ql_warp_hemisphere_uniform(u, 0).z * ONE);
+        z = ql_warp_lecture_cosine(down, 0).z * ONE;
         add_to(&cosine, z * z);
         add_to(&sphere, (1 + ql_warp_sphere(down, 0).z * ONE) / 2);
         /* of the disk the larger of two coordinates: the other in the middle,
          * its square has the share r of the square's sides */
-        ql_warp_disk(0x80000000u + (k << 15 | 0x4000u), 0x80000000u, &x, &y);
+        ql_warp_plane_disk(
+                0x80000000u + (k << 15 | 0x4000u), 0x80000000u, &x, &y);
         add_to(&disk, x * ONE);
         add_to(&cone, (1 - ql_warp_cone(width, u, 0).z * ONE) * 1024);
     }
@@ -292,7 +297,7 @@ static point_t disk_at(ql_uq32_t u1, ql_uq32_t u2)
 {
     point_t p;
 
-    ql_warp_disk(u1, u2, &p.x, &p.y);
+    ql_warp_plane_disk(u1, u2, &p.x, &p.y);
     return p;
 }
 
@@ -349,7 +354,7 @@ static void check_weights(ql_uq32_t u1, ql_uq32_t u2)
     const uint64_t whole = (uint64_t)1 << QL_BARY_BITS;
     uint32_t b1, b2;
 
-    ql_warp_triangle(u1, u2, &b1, &b2);
+    ql_warp_plane_triangle(u1, u2, &b1, &b2);
     CHECK(b1 > 0 && b2 > 0 && b1 < whole && b2 < whole - b1,
             "(%08lx %08lx): %lu %lu", (unsigned long)u1, (unsigned long)u2,
             (unsigned long)b1, (unsigned long)b2);

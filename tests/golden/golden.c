@@ -22,19 +22,22 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 #include "math/ql_trig.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "qlux.h"
 #include "render/ql_path.h"
 #include "sample/ql_hash.h"
-#include "warp/ql_lobe.h"
+#include "warp/lecture/ql_warp_lecture.h"
+#include "warp/ql_warp_cone.h"
+#include "warp/ql_warp_hemisphere.h"
+#include "warp/ql_warp_lobe.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_sphere.h"
+#include "warp/ql_warp_spherical.h"
 #include "sample/ql_sampler.h"
 #include "sample/ql_sobol.h"
 #include "support/built.h"
-#include "warp/ql_spherical.h"
-#include "warp/ql_square.h"
-#include "warp/ql_warp.h"
 
 /* Other tables are other pictures. */
 #define TEXT_OF(word) #word
@@ -178,8 +181,8 @@ static void add_warps(void)
         uint32_t b1, b2;
 
         sphere = crc_vec(sphere, ql_warp_sphere(u1, u2));
-        cosine = crc_vec(cosine, ql_warp_cosine_hemisphere(n, u1, u2));
-        ql_warp_triangle(u1, u2, &b1, &b2);
+        cosine = crc_vec(cosine, ql_warp_hemisphere_cosine(n, u1, u2));
+        ql_warp_plane_triangle(u1, u2, &b1, &b2);
         triangle = crc_u32(crc_u32(triangle, b1), b2);
         rounded = crc_vec(rounded, ql_vec_to_dir(ql_warp_sphere(u1, u2)));
     }
@@ -201,15 +204,15 @@ static void add_lobes(void)
         ql_q29_t x, y;
         ql_real_t pdf;
 
-        uniform = crc_vec(uniform, ql_warp_uniform_hemisphere(u1, u2));
-        naive = crc_vec(naive, ql_warp_naive_hemisphere(u1, u2));
-        cosine = crc_vec(cosine, ql_warp_cosine_lobe(u1, u2));
+        uniform = crc_vec(uniform, ql_warp_hemisphere_uniform(u1, u2));
+        naive = crc_vec(naive, ql_warp_lecture_naive(u1, u2));
+        cosine = crc_vec(cosine, ql_warp_lecture_cosine(u1, u2));
         power = crc_vec(
-                power, ql_warp_power_lobe(ql_lobe_inverse(m), u1, u2, &s));
-        pdf = ql_warp_power_lobe_pdf(m, s);
+                power, ql_warp_lobe(ql_warp_lobe_inverse(m), u1, u2, &s));
+        pdf = ql_warp_lobe_pdf(m, s);
         power = crc_u32(crc_u32(crc_u32(power, s), pdf.m), (uint16_t)pdf.e);
         cone = crc_vec(cone, ql_warp_cone(s_max, u1, u2));
-        ql_warp_disk(u1, u2, &x, &y);
+        ql_warp_plane_disk(u1, u2, &x, &y);
         disk = crc_u32(crc_u32(disk, (uint32_t)x), (uint32_t)y);
     }
     add("warp_uniform_hemisphere", uniform);
@@ -235,14 +238,13 @@ static void add_spherical(void)
     uint32_t crc = 0, angle = 0;
 
     for (uint32_t i = 0; i < 4096; i++) {
-        ql_spherical_t t;
+        ql_warp_spherical_t t;
 
         angle = crc_u32(angle, ql_atan2(ql_i32(spread(i)), ql_i32(spread(~i))));
-        if (ql_spherical_begin(
+        if (ql_warp_spherical_begin(
                     &t, corner(9 * i), corner(9 * i + 3), corner(9 * i + 6))) {
             crc = crc_u32(crc, t.solid_angle.m);
-            crc = crc_vec(
-                    crc, ql_warp_spherical_triangle(&t, spread(i), spread(~i)));
+            crc = crc_vec(crc, ql_warp_spherical(&t, spread(i), spread(~i)));
         }
     }
     add("atan2", angle);

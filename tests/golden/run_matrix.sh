@@ -20,7 +20,7 @@ sums=tests/golden/checksums.txt
 warn="-std=c99 -pedantic $(sed -n 's/^export WARN := //p' Makefile) -Werror"
 . tests/support/claims.sh
 ran=0
-core=$(ls firmware/*/*.c | grep -v /app/)
+core=$(ls firmware/*/*.c firmware/*/*/*.c | grep -v /app/)
 nearest='-DQL_CFG_TABLE_BITS=5 -DQL_CFG_TABLE_LERP=0'
 lerp='-DQL_CFG_TABLE_BITS=10 -DQL_CFG_TABLE_LERP=1'
 

@@ -15,9 +15,9 @@
 #include "support/picture/estimate.h"
 #include "support/ql_test.h"
 #include "qlux.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "render/ql_direct.h"
-#include "warp/ql_warp.h"
+#include "warp/ql_warp_hemisphere.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
 
@@ -290,7 +290,7 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
         ql_direct_light(&path, dim, &bsdf, &one, &one);
         n = ql_vec_unit_q29_of_inv_n(surface.n, surface.inv_n);
         ray.origin = surface.p;
-        ray.direction = ql_vec_to_dir(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
+        ray.direction = ql_vec_to_dir(ql_warp_hemisphere_cosine(n, u.u1, u.u2));
         if (ql_vec_dot_normal(ray.direction, surface.n) <= 0) {
             ray.direction = ql_vec_to_dir(n);
         }

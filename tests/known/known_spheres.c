@@ -12,10 +12,9 @@
 #include "support/ql_double.h"
 #include "support/ql_test.h"
 #include "qlux.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "light/ql_emit.h"
 #include "trace/ql_surface_at.h"
-#include "warp/ql_warp.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
 

@@ -50,7 +50,7 @@ say_none base_names_are_unique "$bad"
 
 # Every prototype of the core's headers has a comment before it in which each
 # parameter begins a row of the table (inline one-liners explain themselves).
-bad=$(for f in firmware/*.h firmware/*/*.h hal/ql_hal.h; do
+bad=$(for f in firmware/*.h firmware/*/*.h firmware/*/*/*.h hal/ql_hal.h; do
     awk -v f="$f" '
         /^\/\*/ { comment = "" ; inside = 1 }
         inside { comment = comment $0 "\n" }

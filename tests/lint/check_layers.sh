@@ -21,7 +21,7 @@ for layer in $layers; do
     seen=0
     for other in $layers; do
         if [ $seen -eq 1 ]; then
-            bad="$bad $(grep -n "#include \"$other/" firmware/"$layer"/*.[ch])"
+            bad="$bad $(grep -rn "#include \"$other/" "firmware/$layer")"
         fi
         [ "$other" = "$layer" ] && seen=1
     done
@@ -30,16 +30,17 @@ bad=$(echo $bad)
 say_none a_layer_includes_only_itself_and_those_before_it "$bad"
 
 bad=$(grep -l '#include "\(ql_hal\|\.\./\|hal/\|sim/\|tools/\)' \
-    firmware/*/*.[ch] firmware/ql_config.h firmware/qlux.h |
+    firmware/*/*.[ch] firmware/*/*/*.[ch] firmware/ql_config.h firmware/qlux.h |
     grep -v "^firmware/app/")
 say_none the_core_never_includes_the_hal "$bad"
 
-bad=$(grep -h '#include <' firmware/*.[ch] firmware/*/*.[ch] | sort -u |
+bad=$(grep -h '#include <' firmware/*.[ch] firmware/*/*.[ch] \
+    firmware/*/*/*.[ch] | sort -u |
     grep -v '<\(stdbool\|stddef\|stdint\|limits\|string\)\.h>')
 say_none the_core_includes_only_freestanding_headers "$bad"
 
 bad=$(grep -nE '\b(float|double|malloc|calloc|realloc|free)\b' \
-    firmware/*.[ch] firmware/*/*.[ch] |
+    firmware/*.[ch] firmware/*/*.[ch] firmware/*/*/*.[ch] |
     grep -vE ':[0-9]+:[[:space:]]*(\*|/\*|//)')
 say_none the_core_names_no_floating_point_type_and_no_heap "$bad"
 

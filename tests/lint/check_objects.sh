@@ -36,7 +36,7 @@ check_cpu()
         mkdir -p "$dir"
         rm -f "$dir"/*.o
         log=
-        for source in firmware/*/*.c; do
+        for source in firmware/*/*.c firmware/*/*/*.c; do
             object=$dir/$(basename "$source" .c).o
             log="$log$(${prefix}gcc $flags $options \
                 -DQL_CFG_PRECISION=$precision -c "$source" -o "$object" 2>&1)"

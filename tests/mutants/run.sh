@@ -99,7 +99,7 @@ plant()
 # What may see a header of the core: itself and what tests share.
 seeing()
 {
-    ls firmware/*/*.c tests/support/*.c tests/support/*/*.c \
+    ls firmware/*/*.c firmware/*/*/*.c tests/support/*.c tests/support/*/*.c \
         tools/scene/*.c tools/scene/*/*.c
 }
 
@@ -285,12 +285,12 @@ prepare()
 # A fault that is none must not pass for one.
 identity()
 {
-    echo "fine firmware/warp/ql_warp.c" | each --base-object
+    echo "fine firmware/warp/ql_warp_sphere.c" | each --base-object
     {
         cat $list
         printf '\nmutant %s\n' none_at_all
-        echo "file firmware/warp/ql_warp.c"
-        sed -n '/^#include/{s/^/ /;p;q;}' firmware/warp/ql_warp.c
+        echo "file firmware/warp/ql_warp_sphere.c"
+        sed -n '/^#include/{s/^/ /;p;q;}' firmware/warp/ql_warp_sphere.c
     } > "$work/with_none"
     if LIST=$work/with_none WORK=$work "$0" --check-one none_at_all |
         grep -q 'changes_the_code .*FAIL'; then

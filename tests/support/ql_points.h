@@ -4,7 +4,7 @@
 #ifndef QL_POINTS_H
 #define QL_POINTS_H
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 #include "support/ql_stats.h"
 #include "scene/ql_blob.h"
 

@@ -14,6 +14,6 @@ suite=tools/test_lut
 . tests/support/claims.sh
 
 "${1:-${BUILD:-build}/qlux-lut}" -o "$out/ql_lut_data.c" &&
-    cmp "$out/ql_lut_data.c" firmware/math/ql_lut_data.c
+    cmp "$out/ql_lut_data.c" firmware/math/lut/ql_lut_data.c
 say tables_regenerated_are_identical $?
 exit "$failures"

@@ -6,7 +6,7 @@
 
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
-#include "sample/ql_alias.h"
+#include "sample/lecture/ql_alias.h"
 #include "sample/ql_table.h"
 #include "lib/math/build_table.h"
 
@@ -58,7 +58,7 @@ static unsigned count_wrong(const ql_alias_t *alias, unsigned at_most)
     }
     for (uint32_t i = 0; i < n; i++) {
         wrong += places[i] != (uint64_t)n * weights[i] ||
-                 word(i, QL_ALIAS_WEIGHT) != weights[i];
+                 ql_alias_pmf(alias, (uint16_t)i) != weights[i];
     }
     return wrong;
 }

@@ -10,7 +10,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "qlux.h"
-#include "warp/ql_square.h"
+#include "warp/ql_warp_plane.h"
 
 enum { WIDTH = 32, HEIGHT = 24, SPP = 8 };
 
@@ -463,7 +463,7 @@ static double share_beyond(double edge, bool tied)
         for (uint32_t k = 0; k < GRID; k++) {
             ql_q29_t a, b;
 
-            ql_warp_disk((uint32_t)(u * 0x1p32),
+            ql_warp_plane_disk((uint32_t)(u * 0x1p32),
                     (uint32_t)((k + 0.5) / GRID * 0x1p32), &a, &b);
             sum += (2 * u - 1 + ldexp(a, -29) > edge) / (double)GRID;
         }

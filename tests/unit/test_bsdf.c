@@ -2,7 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "material/ql_shading.h"
-#include "warp/ql_lobe.h"
+#include "warp/ql_warp_lobe.h"
 #include "support/seen_phong.h"
 
 /* ---- Two lobes --------------------------------------------------------- */
@@ -116,9 +116,9 @@ TEST(densities_are_those_of_the_lobe_drawn)
                 CHECK(error <= 1e-6 + 2 * n * (ROUNDED + DRAWN_ERROR) / cosine,
                         "lobe: %.9g, not %.9g", got, exact);
             }
-            (void)ql_warp_power_lobe(
-                    ql_lobe_inverse((uint32_t)n << 16), u.u1, u.u2, &s);
-            exact = real(ql_warp_power_lobe_pdf((uint32_t)n << 16, s)) * chance;
+            (void)ql_warp_lobe(
+                    ql_warp_lobe_inverse((uint32_t)n << 16), u.u1, u.u2, &s);
+            exact = real(ql_warp_lobe_pdf((uint32_t)n << 16, s)) * chance;
             CHECK(fabs(got / exact - 1) <= 0x1p-29, "lobe: %.9g, not %.9g", got,
                     exact);
         } else {

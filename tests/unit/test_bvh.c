@@ -8,8 +8,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_points.h"
 #include "support/ql_test.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_tri.h"
 

@@ -7,8 +7,8 @@
 #include "support/picture/mini_scene.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_square.h"
+#include "math/vec/ql_vec_unit.h"
+#include "warp/ql_warp_plane.h"
 #include "scene/ql_camera.h"
 
 #define ONE (1 << QL_POS_BITS)
@@ -59,7 +59,7 @@ static reference_t reference(ql_uniform2_t lens)
     ql_q29_t at[2] = {0, 0};
 
     if (mini.has_lens) {
-        ql_warp_disk(lens.u1, lens.u2, &at[0], &at[1]);
+        ql_warp_plane_disk(lens.u1, lens.u2, &at[0], &at[1]);
     }
     for (unsigned k = 0; k < 3; k++) {
         r.p[k] = wide(mini.camera.at[QL_CAMERA_BASE][k]);

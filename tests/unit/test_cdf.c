@@ -55,6 +55,10 @@ static void check_all(unsigned stride, uint16_t count)
         hits[first]++;
     }
     for (unsigned i = 0; i < count; i++) {
+        CHECK(ql_cdf_pmf(table, stride, count, (uint16_t)i) == (uint64_t)hits[i]
+                                                                       << 16,
+                "entry %u of %u: %lu of 65536 are not its pmf", i, count,
+                (unsigned long)hits[i]);
         CHECK(hits[i] == scaled[i + 1] - scaled[i],
                 "entry %u of %u: %lu of 65536, mass %lu", i, count,
                 (unsigned long)hits[i],

@@ -2,14 +2,14 @@
 /* SPDX-License-Identifier: MIT */
 
 #include "material/ql_diffuse.h"
-#include "warp/ql_warp.h"
+#include "warp/ql_warp_hemisphere.h"
 #include "support/seen_surface.h"
 
 /* What the path tracer has always done; pictures depend on every bit. */
 static ql_vec3_t cosine_direction(ql_uniform2_t u)
 {
     const ql_vec3_t n = ql_vec_unit_q29_of_inv_n(surface.n, surface.inv_n);
-    const ql_vec3_t d = ql_vec_to_dir(ql_warp_cosine_hemisphere(n, u.u1, u.u2));
+    const ql_vec3_t d = ql_vec_to_dir(ql_warp_hemisphere_cosine(n, u.u1, u.u2));
 
     return ql_vec_dot_normal(d, surface.n) > 0 ? d : ql_vec_to_dir(n);
 }

@@ -8,7 +8,7 @@
 #include "support/picture/lamps.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
-#include "warp/ql_warp.h"
+#include "warp/ql_warp_plane.h"
 
 TEST(only_strategies_draw_by_more_than_area)
 {
@@ -49,7 +49,7 @@ static void check_point(uint32_t pick, uint32_t u1, uint32_t u2)
     n = ql_vec_cross(ql_vec_sub(c[1], c[0]), ql_vec_sub(c[2], c[0]));
     CHECK(p.n.x == n.x && p.n.y == n.y && p.n.z == n.z, "light %u's normal",
             light);
-    ql_warp_triangle(u1, u2, &b1, &b2);
+    ql_warp_plane_triangle(u1, u2, &b1, &b2);
     exact[0] = c[0].x + ldexp((double)b1 * (c[1].x - c[0].x) +
                                         (double)b2 * (c[2].x - c[0].x),
                                 -QL_BARY_BITS);

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 #include "support/ql_test.h"
 
 /* Half a unit, and what double may err: far less than any entry's distance

@@ -6,8 +6,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "support/ql_wide.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_vec_unit.h"
 #include "trace/ql_tri.h"
 
 enum { LOW = QL_GRID_MARGIN, HIGH = QL_GRID_MAX - QL_GRID_MARGIN };

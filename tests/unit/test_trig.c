@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 #include "math/ql_trig.h"
 #include "support/ql_nasty.h"
 #include "support/ql_stats.h"

@@ -1,7 +1,7 @@
 /* test_vec.c - products of integer vectors against 64-bit arithmetic */
 /* SPDX-License-Identifier: MIT */
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 

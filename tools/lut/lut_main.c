@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "lib/program/options.h"
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 
 #define TIE_MARGIN 1e-5 /* ulp of the entry: libm errs by less than 2e-6 */
 
@@ -245,7 +245,8 @@ static const option_t options[] = {
         {"-o FILE", OPTION_FILE, OPTION_FIELD(options_t, output),
                 .required = true,
                 .help = "where to write; the tree keeps it as "
-                        "firmware/math/ql_lut_data.c and the tests compare"},
+                        "firmware/math/lut/ql_lut_data.c and the tests "
+                        "compare"},
         OPTION_END};
 
 static const option_section_t sections[] = {{NULL, options}, {NULL, NULL}};
@@ -254,7 +255,7 @@ static const program_t program = {.name = "qlux-lut",
         .about = "write the core's tables as C",
         .usage = "-o FILE.c",
         .sections = sections,
-        .example = "qlux-lut -o firmware/math/ql_lut_data.c"};
+        .example = "qlux-lut -o firmware/math/lut/ql_lut_data.c"};
 
 int main(int argc, char **argv)
 {

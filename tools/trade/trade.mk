@@ -10,11 +10,11 @@ trade-quick: ## The same of a few choices, on one core, in a minute
 	@MAKE='$(MAKE)' tools/trade/trade.sh --quick
 
 ifneq ($(TRADE_RULES),)
-trade_tables := $(wildcard firmware/math/*.c firmware/sample/*.c \
-    firmware/warp/*.c)
+trade_tables := $(foreach l,math sample warp,$(wildcard firmware/$l/*.c \
+    firmware/$l/*/*.c))
 # What a firmware of bench_settings.c is made of.
 CORE := $(core_src) $(wildcard firmware/app/*.c firmware/*.h firmware/*/*.h \
-    hal/*.h) tests/bench/bench_settings.c $(wildcard tests/bench/bench_board.*)
+    firmware/*/*/*.h hal/*.h) tests/bench/bench_settings.c $(wildcard tests/bench/bench_board.*)
 trade_done = > $@.tmp 2> $@.log && mv $@.tmp $@ || \
     { tail -n 5 $@.log >&2; exit 1; }
 

@@ -10,9 +10,10 @@
 #include <string.h>
 
 #include "lib/program/cli.h"
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 #include "sample/ql_cdf.h"
 #include "lib/math/build_table.h"
+#include "warp/ql_warp_lobe.h"
 #include "warp/warps.h"
 
 enum {
@@ -265,7 +266,7 @@ static ql_real_t decay(ops_t *ops, ql_real_t y)
     return normal(ops, s, -32);
 }
 
-/* 1 - cos of ql_warp_power_lobe() */
+/* 1 - cos of ql_warp_lobe() */
 static ql_uq31_t draw_analytic(ops_t *ops, ql_real_t inverse, uint32_t u)
 {
     const ql_real_t log = log_of(ops, midpoint(ops, u), midpoint(ops, ~u));
@@ -359,7 +360,7 @@ bool cost_of_analytic(double power)
         const uint32_t u = k << 16 | 0x8000u;
         ql_uq31_t s;
 
-        (void)ql_warp_power_lobe(setup.inverse, u, 0, &s);
+        (void)ql_warp_lobe(setup.inverse, u, 0, &s);
         same = same && draw_analytic(&analytic, setup.inverse, u) == s;
     }
     printf("\nAnalytic against table: 1 - cos(theta) of cos^%g, operations as "

@@ -8,8 +8,13 @@
 
 #include "lib/program/cli.h"
 #include "sample/ql_sampler.h"
-#include "warp/ql_square.h"
-#include "warp/ql_warp.h"
+#include "warp/lecture/ql_warp_lecture.h"
+#include "warp/ql_warp_cone.h"
+#include "warp/ql_warp_hemisphere.h"
+#include "warp/ql_warp_lobe.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_sphere.h"
+#include "warp/ql_warp_spherical.h"
 
 #define PI      3.14159265358979323846
 #define DEGREE  (PI / 180)
@@ -75,12 +80,12 @@ static void no_setup(warp_setup_t *s)
 static void naive_draw(
         const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
 {
-    const ql_vec3_t v = ql_warp_naive_hemisphere(u[0], u[1]);
+    const ql_vec3_t v = ql_warp_lecture_naive(u[0], u[1]);
 
     (void)s;
     put_direction(p, v);
     p->inside = p->inside && v.z >= 0;
-    p->density = warp_real(ql_warp_naive_hemisphere_pdf(v));
+    p->density = warp_real(ql_warp_lecture_naive_pdf(v));
 }
 
 static void naive_invert(const warp_setup_t *s, const double *x, double *c)
@@ -106,12 +111,12 @@ static void naive_moments(const warp_setup_t *s, warp_moments_t *m)
 static void uniform_draw(
         const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
 {
-    const ql_vec3_t v = ql_warp_uniform_hemisphere(u[0], u[1]);
+    const ql_vec3_t v = ql_warp_hemisphere_uniform(u[0], u[1]);
 
     (void)s;
     put_direction(p, v);
     p->inside = p->inside && v.z >= 0;
-    p->density = ql_warp_uniform_hemisphere_pdf() / TWO_32;
+    p->density = ql_warp_hemisphere_uniform_pdf() / TWO_32;
 }
 
 static void uniform_invert(const warp_setup_t *s, const double *x, double *c)
@@ -165,12 +170,12 @@ static void sphere_moments(const warp_setup_t *s, warp_moments_t *m)
 static void cosine_draw(
         const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
 {
-    const ql_vec3_t v = ql_warp_cosine_lobe(u[0], u[1]);
+    const ql_vec3_t v = ql_warp_lecture_cosine(u[0], u[1]);
 
     (void)s;
     put_direction(p, v);
     p->inside = p->inside && v.z > 0;
-    p->density = ql_warp_cosine_lobe_pdf(v.z) / TWO_32;
+    p->density = ql_warp_lecture_cosine_pdf(v.z) / TWO_32;
 }
 
 static void cosine_invert(const warp_setup_t *s, const double *x, double *c)
@@ -197,18 +202,18 @@ static void power_setup(warp_setup_t *s)
 {
     s->power = (ql_uq16_t)llround(s->parameter * 65536);
     s->parameter = s->power / 65536.0;
-    s->inverse = ql_lobe_inverse(s->power);
+    s->inverse = ql_warp_lobe_inverse(s->power);
 }
 
 static void power_draw(
         const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
 {
     ql_uq31_t from_axis;
-    const ql_vec3_t v = ql_warp_power_lobe(s->inverse, u[0], u[1], &from_axis);
+    const ql_vec3_t v = ql_warp_lobe(s->inverse, u[0], u[1], &from_axis);
 
     put_direction(p, v);
     p->inside = p->inside && v.z >= 0;
-    p->density = warp_real(ql_warp_power_lobe_pdf(s->power, from_axis));
+    p->density = warp_real(ql_warp_lobe_pdf(s->power, from_axis));
 }
 
 static void power_invert(const warp_setup_t *s, const double *x, double *c)
@@ -287,11 +292,11 @@ static void disk_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
     ql_q29_t x, y;
 
     (void)s;
-    ql_warp_disk(u[0], u[1], &x, &y);
+    ql_warp_plane_disk(u[0], u[1], &x, &y);
     p->x[0] = x / ONE_Q29;
     p->x[1] = y / ONE_Q29;
     p->inside = warp_sine(p->x) <= 1 + MARGIN;
-    p->density = ql_warp_disk_pdf() / TWO_32;
+    p->density = ql_warp_plane_disk_pdf() / TWO_32;
 }
 
 static void disk_invert(const warp_setup_t *s, const double *x, double *c)
@@ -320,7 +325,7 @@ static void triangle_draw(
     uint32_t b1, b2;
 
     (void)s;
-    ql_warp_triangle(u[0], u[1], &b1, &b2);
+    ql_warp_plane_triangle(u[0], u[1], &b1, &b2);
     p->x[0] = ldexp(b1, -QL_BARY_BITS);
     p->x[1] = ldexp(b2, -QL_BARY_BITS);
     p->inside = p->x[0] + p->x[1] < 1;
@@ -354,13 +359,15 @@ static void triangle_moments(const warp_setup_t *s, warp_moments_t *m)
 
 static void tent_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
 {
-    const int32_t x = ql_warp_tent(u[0], u[1]), y = ql_warp_tent(u[2], u[3]);
+    const int32_t x = ql_warp_lecture_tent(u[0], u[1]),
+                  y = ql_warp_lecture_tent(u[2], u[3]);
 
     (void)s;
     p->x[0] = x / TWO_31;
     p->x[1] = y / TWO_31;
     p->inside = true;
-    p->density = ql_warp_tent_pdf(x) / TWO_31 * (ql_warp_tent_pdf(y) / TWO_31);
+    p->density = ql_warp_lecture_tent_pdf(x) / TWO_31 *
+                 (ql_warp_lecture_tent_pdf(y) / TWO_31);
 }
 
 static void tent_invert(const warp_setup_t *s, const double *x, double *c)
@@ -443,7 +450,7 @@ static void spherical_setup(warp_setup_t *s)
         s->corners[i][1] = v[i].y / length;
         s->corners[i][2] = v[i].z / length;
     }
-    if (!ql_spherical_begin(&s->spherical, v[0], v[1], v[2])) {
+    if (!ql_warp_spherical_begin(&s->spherical, v[0], v[1], v[2])) {
         cli_fail(CLI_INPUT, "spherical-triangle: the core refuses %.3g sr",
                 solid_angle(s->corners[0], s->corners[1], s->corners[2]));
     }
@@ -452,7 +459,7 @@ static void spherical_setup(warp_setup_t *s)
 static void spherical_draw(
         const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
 {
-    put_direction(p, ql_warp_spherical_triangle(&s->spherical, u[0], u[1]));
+    put_direction(p, ql_warp_spherical(&s->spherical, u[0], u[1]));
     for (int i = 0; i < 3; i++) {
         p->inside = p->inside && volume(s->corners[i], s->corners[(i + 1) % 3],
                                          p->x) > -MARGIN;

@@ -14,9 +14,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "sample/ql_alias.h"
-#include "warp/ql_lobe.h"
-#include "warp/ql_spherical.h"
+#include "sample/lecture/ql_alias.h"
+#include "warp/ql_warp_spherical.h"
 #include "sample/ql_table.h"
 
 enum {
@@ -58,7 +57,7 @@ typedef struct {
     ql_real_t inverse;
     ql_real_t s_max;      /* 1 - cos of a cone's half-angle */
     double corners[3][3]; /* of a spherical triangle, unit */
-    ql_spherical_t spherical;
+    ql_warp_spherical_t spherical;
     warp_cells_t cells;
 } warp_setup_t;
 

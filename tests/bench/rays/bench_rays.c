@@ -4,9 +4,9 @@
 #include "bench/rays/bench_rays.h"
 
 #include "base/ql_settings.h"
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 #include "light/ql_emit_triangle.h"
-#include "warp/ql_warp.h"
+#include "warp/ql_warp_hemisphere.h"
 #include "light/ql_light.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
@@ -16,7 +16,7 @@ QL_NOINLINE ql_vec3_t bench_direction(const bench_warp_t *warp)
 {
     const ql_vec3_t n = ql_vec_unit_q29_of_inv_n(warp->n, warp->inv_n);
     const ql_vec3_t d =
-            ql_vec_to_dir(ql_warp_cosine_hemisphere(n, warp->u.u1, warp->u.u2));
+            ql_vec_to_dir(ql_warp_hemisphere_cosine(n, warp->u.u1, warp->u.u2));
 
     return ql_vec_dot_normal(d, warp->n) > 0 ? d : ql_vec_to_dir(n);
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "lib/program/cli.h"
-#include "sample/ql_alias.h"
+#include "sample/lecture/ql_alias.h"
 #include "lib/math/build_table.h"
 
 enum { ENTRIES = 16, CDF_BITS = 31 };

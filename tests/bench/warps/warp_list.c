@@ -4,14 +4,17 @@
 #include "bench/warps/warp_list.h"
 
 #include "bench_tables.h"
-#include "math/ql_frame.h"
-#include "sample/ql_alias.h"
+#include "math/vec/ql_frame.h"
+#include "sample/lecture/ql_alias.h"
 #include "sample/ql_cdf.h"
-#include "warp/ql_lobe.h"
-#include "warp/ql_spherical.h"
-#include "warp/ql_square.h"
+#include "warp/lecture/ql_warp_lecture.h"
+#include "warp/ql_warp_cone.h"
+#include "warp/ql_warp_hemisphere.h"
+#include "warp/ql_warp_lobe.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_sphere.h"
+#include "warp/ql_warp_spherical.h"
 #include "sample/ql_table.h"
-#include "warp/ql_warp.h"
 
 /* Make the compiler work a result out. */
 #define KEEP(pointer) __asm__ volatile("" : : "r"(pointer) : "memory")
@@ -20,7 +23,7 @@
 static ql_vec3_t normal = {0, 322122547, 429496730}; /* (0, 0.6, 0.8) s2.29 */
 static ql_frame_t frame;
 static ql_real_t power_inverse, cone_s;
-static ql_spherical_t triangle;
+static ql_warp_spherical_t triangle;
 static ql_table_t table;
 static const ql_alias_t alias = {bench_alias, BENCH_ALIAS_TOTAL, BENCH_ENTRIES};
 
@@ -55,25 +58,26 @@ WARP(empty, {
 })
 
 DIRECTION(sphere, ql_warp_sphere(u1, u2))
-DIRECTION(cosine_hemisphere, ql_warp_cosine_hemisphere(normal, u1, u2))
+DIRECTION(cosine_hemisphere, ql_warp_hemisphere_cosine(normal, u1, u2))
 WARP(triangle, {
     uint32_t b[2];
 
-    ql_warp_triangle(u1, u2, b, b + 1);
+    ql_warp_plane_triangle(u1, u2, b, b + 1);
     KEEP(b);
 })
 
-DIRECTION(uniform_hemisphere, ql_warp_uniform_hemisphere(u1, u2))
-DIRECTION(naive_hemisphere, ql_warp_naive_hemisphere(u1, u2))
-DIRECTION(cosine_lobe, ql_warp_cosine_lobe(u1, u2))
+DIRECTION(uniform_hemisphere, ql_warp_hemisphere_uniform(u1, u2))
+DIRECTION(naive_hemisphere, ql_warp_lecture_naive(u1, u2))
+DIRECTION(cosine_lobe, ql_warp_lecture_cosine(u1, u2))
 WARP(power_lobe, {
     ql_uq31_t s;
-    const ql_vec3_t d = ql_warp_power_lobe(power_inverse, u1, u2, &s);
+    const ql_vec3_t d = ql_warp_lobe(power_inverse, u1, u2, &s);
 
     KEEP(&d);
 })
 DIRECTION(cone, ql_warp_cone(cone_s, u1, u2))
-WARP_OF(cone_of_sphere, ql_real_t, ql_cone_of_sphere(ql_real_midpoint(u1 ^ u2)))
+WARP_OF(cone_of_sphere, ql_real_t,
+        ql_warp_cone_of_sphere(ql_real_midpoint(u1 ^ u2)))
 WARP(frame, {
     const ql_vec3_t n = {
             ql_asr32(ql_i32(u1), 4), ql_asr32(ql_i32(u2), 4), normal.z};
@@ -93,23 +97,23 @@ WARP(to_world, {
 WARP(disk, {
     ql_q29_t p[2];
 
-    ql_warp_disk(u1, u2, p, p + 1);
+    ql_warp_plane_disk(u1, u2, p, p + 1);
     KEEP(p);
 })
-WARP_OF(tent, int32_t, ql_warp_tent(u1, u2))
+WARP_OF(tent, int32_t, ql_warp_lecture_tent(u1, u2))
 
 WARP(spherical_begin, {
     ql_vec3_t c = corners[2];
-    ql_spherical_t t;
+    ql_warp_spherical_t t;
     bool seen;
 
     c.x += (int32_t)(u1 >> 26); /* below 64 */
     c.y += (int32_t)(u2 >> 26);
-    seen = ql_spherical_begin(&t, corners[0], corners[1], c);
+    seen = ql_warp_spherical_begin(&t, corners[0], corners[1], c);
     KEEP(&seen);
     KEEP(&t);
 })
-DIRECTION(spherical_triangle, ql_warp_spherical_triangle(&triangle, u1, u2))
+DIRECTION(spherical_triangle, ql_warp_spherical(&triangle, u1, u2))
 
 WARP(cdf, {
     const uint16_t entry = ql_cdf_sample(bench_cdf, 1, BENCH_ENTRIES, u1);
@@ -148,12 +152,13 @@ bool warp_list_open(void)
 {
     static const uint16_t count[2] = {BENCH_ENTRIES, BENCH_ENTRIES};
 
-    power_inverse = ql_lobe_inverse(20u << 16);
+    power_inverse = ql_warp_lobe_inverse(20u << 16);
     cone_s = ql_real_from_u64(1); /* a hemisphere */
     ql_frame_from_normal(&frame, normal);
     return ql_table_open(&table, bench_table, BENCH_TABLE_WORDS, 2, count) ==
                    QL_OK &&
-           ql_spherical_begin(&triangle, corners[0], corners[1], corners[2]);
+           ql_warp_spherical_begin(
+                   &triangle, corners[0], corners[1], corners[2]);
 }
 
 void warp_numbers(ql_uniform2_t *u, uint32_t first, unsigned count)

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 
 #include "bench/rays/bench_rays.h"
-#include "math/ql_lut.h"
+#include "math/lut/ql_lut.h"
 #include "support/picture/picture.h"
 #include "support/ql_test.h"
 #include "qlux.h"
@@ -537,9 +537,9 @@ static rounding_error_t curve_error(
 
 /* Who holds a stage's own error. */
 static const char *const held_by[STAGES] = {"test_trig", "test_real",
-        "test_real", "test_camera", "test_camera", "test_light", "test_warp",
-        "test_surface", "test_lobe", "test_bvh", "test_surface", "test_real",
-        "test_fx", "test_film", "known_budget"};
+        "test_real", "test_camera", "test_camera", "test_light",
+        "test_warp_sphere", "test_surface", "test_warp_lobe", "test_bvh",
+        "test_surface", "test_real", "test_fx", "test_film", "known_budget"};
 
 typedef struct {
     char text[256];

@@ -7,12 +7,11 @@
 #include <string.h>
 
 #include "support/picture/film_add.h"
-#include "math/ql_frame.h"
+#include "math/vec/ql_frame.h"
 #include "math/ql_rgb.h"
 #include "math/ql_trig.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_lobe.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_vec_unit.h"
+#include "warp/ql_warp_sphere.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
 #include "trace/ql_surface_at.h"

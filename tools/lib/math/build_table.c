@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/ql_base.h"
-#include "sample/ql_alias.h"
+#include "sample/lecture/ql_alias.h"
 #include "sample/ql_table.h"
 
 enum { COUNT_MAX = 65535, WEIGHT_BITS = 46, BITS_MIN = 16, BITS_MAX = 31 };

@@ -1,7 +1,7 @@
 /* ql_vec.c - dot products of integer 3-vectors, as calls */
 /* SPDX-License-Identifier: MIT */
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 
 int64_t ql_vec_dot_call(ql_vec3_t a, ql_vec3_t b)
 {

@@ -1,7 +1,7 @@
 /* ql_vec_unit.c - unit vectors by what is known of a length; directions */
 /* SPDX-License-Identifier: MIT */
 
-#include "math/ql_vec_unit.h"
+#include "math/vec/ql_vec_unit.h"
 
 uint32_t ql_vec_unit_pack_inv_n(uint64_t square)
 {

@@ -9,7 +9,10 @@
  *
  * Twelve bytes an entry where prefix sums take two or four, and no order: a
  * larger u need not give a larger index, so stratified u stay stratified only
- * within a column. Worth it where one distribution serves many samples. */
+ * within a column. Worth it where one distribution serves many samples.
+ *
+ * Nothing in the core calls this, and no firmware holds a byte of it: it is
+ * here for qlux-warp and the tests, which compare it with ql_cdf.h. */
 
 #ifndef QL_ALIAS_H
 #define QL_ALIAS_H
@@ -50,6 +53,18 @@ QL_INLINE uint16_t ql_alias_at(
                    : (uint16_t)QL_LE32(entry[QL_ALIAS_OTHER]);
 }
 
+/* Probability of one entry.
+ *
+ *   alias   -       from a builder that checked it
+ *   entry   0..n-1
+ *   return  0..W    w of the entry: its probability is w / W
+ */
+QL_INLINE uint32_t ql_alias_pmf(const ql_alias_t *alias, uint16_t entry)
+{
+    return QL_LE32(
+            alias->words[(uint32_t)entry * QL_ALIAS_WORDS + QL_ALIAS_WEIGHT]);
+}
+
 /* Pick one entry of a discrete distribution in constant time.
  *
  *   alias   -           from a builder that checked it
@@ -73,8 +88,7 @@ QL_FX_INLINE uint16_t ql_alias_sample(
             ql_alias_at(alias, column, ql_mulhi_u32(u2, alias->total));
 
     QL_ASSERT(alias->count > 0 && alias->total > 0);
-    *weight = QL_LE32(
-            alias->words[(uint32_t)i * QL_ALIAS_WORDS + QL_ALIAS_WEIGHT]);
+    *weight = ql_alias_pmf(alias, i);
     return i;
 }
 

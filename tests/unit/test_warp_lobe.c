@@ -1,4 +1,4 @@
-/* test_lobe.c - lobes follow their densities; planted faults are rejected */
+/* test_warp_lobe.c - lobes against their densities; planted faults fail */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
@@ -6,9 +6,11 @@
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
-#include "math/ql_frame.h"
-#include "warp/ql_lobe.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_frame.h"
+#include "warp/lecture/ql_warp_lecture.h"
+#include "warp/ql_warp_cone.h"
+#include "warp/ql_warp_hemisphere.h"
+#include "warp/ql_warp_lobe.h"
 
 #define PI           3.14159265358979323846
 #define LENGTH_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.4e-5 : 5e-9)
@@ -190,12 +192,12 @@ static double cosine_below(point_t p)
 
 static point_t uniform(uint32_t u1, uint32_t u2)
 {
-    return from_q29(ql_warp_uniform_hemisphere(u1, u2));
+    return from_q29(ql_warp_hemisphere_uniform(u1, u2));
 }
 
 static point_t naive(uint32_t u1, uint32_t u2)
 {
-    return from_q29(ql_warp_naive_hemisphere(u1, u2));
+    return from_q29(ql_warp_lecture_naive(u1, u2));
 }
 
 static double naive_below(point_t p)
@@ -278,13 +280,13 @@ TEST(naive_density_measures_the_hemisphere)
 {
     double area = 0, projected = 0;
 
-    CHECK(fabs(ldexp(ql_warp_uniform_hemisphere_pdf(), -32) - 0.5 / PI) <
+    CHECK(fabs(ldexp(ql_warp_hemisphere_uniform_pdf(), -32) - 0.5 / PI) <
                     0x1p-32,
-            "%lu", (unsigned long)ql_warp_uniform_hemisphere_pdf());
+            "%lu", (unsigned long)ql_warp_hemisphere_uniform_pdf());
     for (uint32_t k = 0; k < 65536; k++) {
         const ql_vec3_t w =
-                ql_warp_naive_hemisphere(k << 16 | 0x8000u, k * 0x9e3779b9u);
-        const double pdf = real(ql_warp_naive_hemisphere_pdf(w));
+                ql_warp_lecture_naive(k << 16 | 0x8000u, k * 0x9e3779b9u);
+        const double pdf = real(ql_warp_lecture_naive_pdf(w));
         const double exact =
                 1 / (PI * PI * hypot(ldexp(w.x, -29), ldexp(w.y, -29)));
 
@@ -303,18 +305,18 @@ TEST(naive_density_is_0_at_the_pole_and_below)
     const ql_vec3_t pole = {0, 0, 1 << 29}, below = {1 << 28, 0, -1};
     const ql_vec3_t rim = {1 << 29, 1 << 12, 0};
 
-    CHECK(ql_warp_naive_hemisphere_pdf(pole).m == 0 &&
-                    ql_warp_naive_hemisphere_pdf(below).m == 0 &&
-                    fabs(real(ql_warp_naive_hemisphere_pdf(rim)) * PI * PI -
-                            1) < 1e-4,
-            "%g", real(ql_warp_naive_hemisphere_pdf(rim)));
+    CHECK(ql_warp_lecture_naive_pdf(pole).m == 0 &&
+                    ql_warp_lecture_naive_pdf(below).m == 0 &&
+                    fabs(real(ql_warp_lecture_naive_pdf(rim)) * PI * PI - 1) <
+                            1e-4,
+            "%g", real(ql_warp_lecture_naive_pdf(rim)));
 }
 
 /* ---- Cosine lobe ------------------------------------------------------- */
 
 static point_t cosine(uint32_t u1, uint32_t u2)
 {
-    return from_q29(ql_warp_cosine_lobe(u1, u2));
+    return from_q29(ql_warp_lecture_cosine(u1, u2));
 }
 
 TEST(cosine_lobe_matches_its_density)
@@ -348,7 +350,7 @@ TEST(cosine_lobe_has_unit_length_and_never_meets_the_horizon)
 
     CHECK(a <= LENGTH_ERROR, "%.3g", a);
     for (int i = 0; i < ENDS; i++) {
-        CHECK(ql_warp_cosine_lobe(0xffffffffu, ends[i]).z > 0, "%d", i);
+        CHECK(ql_warp_lecture_cosine(0xffffffffu, ends[i]).z > 0, "%d", i);
     }
     NOTE("worst %.2e", a);
 }
@@ -363,7 +365,7 @@ TEST(cosine_lobe_is_the_cosine_hemisphere_about_z)
         const uint64_t bits = stats_random(&state);
         const uint32_t u1 = (uint32_t)bits, u2 = (uint32_t)(bits >> 32);
         const point_t a = cosine(u1, u2);
-        const point_t b = from_q29(ql_warp_cosine_hemisphere(n, u1, u2));
+        const point_t b = from_q29(ql_warp_hemisphere_cosine(n, u1, u2));
         const double size = sqrt(dot(b, b));
 
         if (size > 0.01) {
@@ -379,12 +381,12 @@ TEST(cosine_density_is_z_over_pi)
 {
     for (int32_t k = -16; k <= 65536; k++) {
         const int32_t z = k * 8192;
-        const double got = ldexp(ql_warp_cosine_lobe_pdf(z), -32);
+        const double got = ldexp(ql_warp_lecture_cosine_pdf(z), -32);
 
         CHECK(fabs(got - fmax(ldexp(z, -29), 0) / PI) < 0x1p-31, "%ld: %.12f",
                 (long)z, got);
     }
-    CHECK(ql_warp_cosine_lobe_pdf(INT32_MIN) == 0, "below");
+    CHECK(ql_warp_lecture_cosine_pdf(INT32_MIN) == 0, "below");
 }
 
 /* ---- cos^m ------------------------------------------------------------- */
@@ -395,13 +397,13 @@ static ql_real_t inverse_real;
 static void set_power(uint32_t q16)
 {
     power_q16 = q16;
-    inverse_real = ql_lobe_inverse(q16);
+    inverse_real = ql_warp_lobe_inverse(q16);
 }
 
 static point_t power(uint32_t u1, uint32_t u2)
 {
     uint32_t s;
-    point_t p = from_q29(ql_warp_power_lobe(inverse_real, u1, u2, &s));
+    point_t p = from_q29(ql_warp_lobe(inverse_real, u1, u2, &s));
 
     p.s = ldexp(s, -31);
     return p;
@@ -590,7 +592,7 @@ TEST(power_density_is_within_its_error)
         const double m = ldexp(q16, -16), at = ldexp(s, -31);
         const double log = at < 1 ? m * log1p(-at) : -1e9;
         const double exact = (m + 1) / (2 * PI) * exp(log);
-        const double got = real(ql_warp_power_lobe_pdf(q16, s));
+        const double got = real(ql_warp_lobe_pdf(q16, s));
         const double limit = 0x1p-26 + m * 0x1p-32 + 0x1p-29 * 1.4427 * -log;
 
         if (log < -700) {
@@ -601,9 +603,9 @@ TEST(power_density_is_within_its_error)
         CHECK(fabs(got / exact - 1) <= limit,
                 "m = %.5f, s = %.12g: %.12g, not %.12g", m, at, got, exact);
     }
-    CHECK(ql_warp_power_lobe_pdf(0, QL_UQ31_ONE).m == 0 &&
-                    ql_warp_power_lobe_pdf(0xffffffffu, 0x7fffffffu).m == 0 &&
-                    ql_warp_power_lobe_pdf(5, 0xffffffffu).m == 0,
+    CHECK(ql_warp_lobe_pdf(0, QL_UQ31_ONE).m == 0 &&
+                    ql_warp_lobe_pdf(0xffffffffu, 0x7fffffffu).m == 0 &&
+                    ql_warp_lobe_pdf(5, 0xffffffffu).m == 0,
             "not zero at the horizon");
     NOTE("worst %.2f of the bound", worst);
 }
@@ -779,7 +781,7 @@ TEST(cone_density_is_1_over_the_solid_angle)
 static double cone_error(ql_real_t ratio2)
 {
     const long double x = ldexpl(ratio2.m, ratio2.e);
-    const ql_real_t s = ql_cone_of_sphere(ratio2);
+    const ql_real_t s = ql_warp_cone_of_sphere(ratio2);
 
     CHECK(s.m >= 0x80000000u, "%Lg: mantissa %08lx", x, (unsigned long)s.m);
     return (double)fabsl(ldexpl(s.m, s.e) * (1 + sqrtl(1 - x)) / x - 1);
@@ -794,7 +796,7 @@ TEST(the_cone_of_a_sphere_keeps_its_relative_precision)
 
     for (int i = 0; i < 3; i++) {
         const double r = ratios[i][0];
-        const double s = real(ql_cone_of_sphere(real_of(r * r)));
+        const double s = real(ql_warp_cone_of_sphere(real_of(r * r)));
 
         CHECK(fabs(s / ratios[i][1] - 1) < 1e-8, "R/d = %g: %.12g", r, s);
     }
@@ -818,10 +820,10 @@ TEST(the_cone_at_or_inside_a_sphere_is_a_hemisphere)
 {
     const ql_real_t zero = {0, 7};
 
-    CHECK(real(ql_cone_of_sphere(real_of(1))) == 1 &&
-                    real(ql_cone_of_sphere(real_of(1e9))) == 1 &&
-                    ql_cone_of_sphere(zero).m == 0,
-            "%g", real(ql_cone_of_sphere(real_of(1))));
+    CHECK(real(ql_warp_cone_of_sphere(real_of(1))) == 1 &&
+                    real(ql_warp_cone_of_sphere(real_of(1e9))) == 1 &&
+                    ql_warp_cone_of_sphere(zero).m == 0,
+            "%g", real(ql_warp_cone_of_sphere(real_of(1))));
 }
 
 /* ---- Frames ------------------------------------------------------------ */
@@ -928,7 +930,7 @@ TEST(frames_turn_local_directions_to_the_world)
         const double rho = sqrt(1 - z * z);
         const ql_vec3_t n = unit_q29(rho * cos(angle), rho * sin(angle), z);
         uint32_t s;
-        const ql_vec3_t v = ql_warp_power_lobe(
+        const ql_vec3_t v = ql_warp_lobe(
                 inverse_real, (uint32_t)bits, (uint32_t)(bits >> 32), &s);
         ql_frame_t f;
         point_t a, w, axes[3];
@@ -949,7 +951,7 @@ TEST(frames_turn_local_directions_to_the_world)
 
 int main(int argc, char **argv)
 {
-    TEST_BEGIN("unit/test_lobe", argc, argv);
+    TEST_BEGIN("unit/test_warp_lobe", argc, argv);
     RUN_IF(TABLES_EXACT, uniform_hemisphere_is_uniform);
     RUN(naive_hemisphere_is_rejected_as_uniform);
     RUN_IF(TABLES_EXACT, naive_hemisphere_matches_its_own_density);

@@ -1,4 +1,4 @@
-/* test_square.c - disk and tent follow their densities; faults are rejected */
+/* test_warp_plane.c - disk and tent against their densities; faults fail */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
@@ -6,7 +6,8 @@
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
-#include "warp/ql_square.h"
+#include "warp/lecture/ql_warp_lecture.h"
+#include "warp/ql_warp_plane.h"
 
 #define PI           3.14159265358979323846
 #define RADIUS_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.1e-5 : 5.1e-8)
@@ -24,7 +25,7 @@ static point_t disk(uint32_t u1, uint32_t u2)
     int32_t x, y;
     point_t p;
 
-    ql_warp_disk(u1, u2, &x, &y);
+    ql_warp_plane_disk(u1, u2, &x, &y);
     p.x = ldexp(x, -29);
     p.y = ldexp(y, -29);
     return p;
@@ -190,8 +191,8 @@ TEST(disk_of_left_edges_is_rejected)
 
 TEST(disk_density_is_1_over_pi)
 {
-    CHECK(fabs(ldexp(ql_warp_disk_pdf(), -32) - 1 / PI) <= 0x1p-32, "%.12f",
-            ldexp(ql_warp_disk_pdf(), -32));
+    CHECK(fabs(ldexp(ql_warp_plane_disk_pdf(), -32) - 1 / PI) <= 0x1p-32,
+            "%.12f", ldexp(ql_warp_plane_disk_pdf(), -32));
 }
 
 /* ---- The tent ---------------------------------------------------------- */
@@ -202,14 +203,14 @@ TEST(tent_counts_are_exactly_its_density)
     static uint32_t counts[511];
 
     for (uint32_t i = 0; i < 65536; i++) {
-        const int32_t x = ql_warp_tent(
+        const int32_t x = ql_warp_lecture_tent(
                 (i & 255) << 24 | 0x800000u, (i >> 8) << 24 | 0x800000u);
 
         CHECK(x % (1 << 23) == 0, "%ld", (long)x);
         counts[x / (1 << 23) + 255]++;
     }
     for (int k = -255; k <= 255; k++) {
-        const uint32_t pdf = ql_warp_tent_pdf((int32_t)k * (1 << 23));
+        const uint32_t pdf = ql_warp_lecture_tent_pdf((int32_t)k * (1 << 23));
 
         CHECK(counts[k + 255] == (uint32_t)(256 - (k < 0 ? -k : k)),
                 "%d: %lu times", k, (unsigned long)counts[k + 255]);
@@ -223,7 +224,7 @@ TEST(tent_keeps_inside_and_exact_at_the_ends)
 {
     for (uint32_t i = 0; i < ENDS * ENDS; i++) {
         const uint32_t u1 = ends[i % ENDS], u2 = ends[i / ENDS];
-        const int32_t x = ql_warp_tent(u1, u2);
+        const int32_t x = ql_warp_lecture_tent(u1, u2);
 
         CHECK(x > INT32_MIN && x == (int64_t)(u1 / 2) - (int64_t)(u2 / 2),
                 "u = %08lx, %08lx: %ld", (unsigned long)u1, (unsigned long)u2,
@@ -239,7 +240,7 @@ static double uniform_side(uint32_t u1, uint32_t u2)
 
 static double tent(uint32_t u1, uint32_t u2)
 {
-    return ldexp(ql_warp_tent(u1, u2), -31);
+    return ldexp(ql_warp_lecture_tent(u1, u2), -31);
 }
 
 static double tent_p(double (*warp)(uint32_t, uint32_t))
@@ -276,7 +277,7 @@ TEST(a_box_instead_of_the_tent_is_rejected)
 
 int main(int argc, char **argv)
 {
-    TEST_BEGIN("unit/test_square", argc, argv);
+    TEST_BEGIN("unit/test_warp_plane", argc, argv);
     RUN(disk_is_the_concentric_map);
     RUN(disk_centre_is_never_divided_by);
     RUN_IF(TABLES_EXACT, disk_is_uniform);

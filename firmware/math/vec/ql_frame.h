@@ -4,7 +4,7 @@
 #ifndef QL_FRAME_H
 #define QL_FRAME_H
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 
 /* A right-handed frame: s x t = n. */
 typedef struct {

@@ -1,12 +1,12 @@
-/* test_spherical.c - spherical triangles: area, directions, uniformity */
+/* test_warp_spherical.c - spherical triangles: area, directions, uniformity */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
 
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
-#include "warp/ql_spherical.h"
-#include "warp/ql_warp.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_spherical.h"
 
 #define AREA_ERROR 1e-8 /* relative */
 #define SIDE_ERROR 1e-8 /* of a component, and of the length */
@@ -245,8 +245,8 @@ static corners_t random_corners(int kind)
     return k;
 }
 
-/* The corners as ql_spherical_begin() has named them. */
-static triangle_t named(const ql_spherical_t *t, corners_t k)
+/* The corners as ql_warp_spherical_begin() has named them. */
+static triangle_t named(const ql_warp_spherical_t *t, corners_t k)
 {
     const point_t p[3] = {
             unit(from_int(k.a)), unit(from_int(k.b)), unit(from_int(k.c))};
@@ -269,7 +269,7 @@ static triangle_t named(const ql_spherical_t *t, corners_t k)
     (long)(k).a.x, (long)(k).a.y, (long)(k).a.z, (long)(k).b.x, (long)(k).b.y, \
             (long)(k).b.z, (long)(k).c.x, (long)(k).c.y, (long)(k).c.z
 
-static long double solid_angle(const ql_spherical_t *t)
+static long double solid_angle(const ql_warp_spherical_t *t)
 {
     return ldexpl(t->solid_angle.m, t->solid_angle.e);
 }
@@ -286,8 +286,8 @@ TEST(solid_angles_are_within_their_error_between_the_thresholds)
         const int kind = (int)(i % KINDS);
         const corners_t k = random_corners(kind);
         const long double exact = area_of_corners(k);
-        ql_spherical_t t;
-        const bool ok = ql_spherical_begin(&t, k.a, k.b, k.c);
+        ql_warp_spherical_t t;
+        const bool ok = ql_warp_spherical_begin(&t, k.a, k.b, k.c);
 
         if (ok) {
             const long double error = fabsl(solid_angle(&t) / exact - 1);
@@ -322,11 +322,11 @@ TEST(squares_have_the_solid_angles_of_their_closed_form)
         const int32_t h = 5000, z = squares[i].z;
         const ql_vec3_t k[4] = {
                 vec(-h, -h, z), vec(h, -h, z), vec(h, h, z), vec(-h, h, z)};
-        ql_spherical_t s, t;
+        ql_warp_spherical_t s, t;
         double got;
 
-        CHECK(ql_spherical_begin(&s, k[0], k[1], k[2]) &&
-                        ql_spherical_begin(&t, k[0], k[2], k[3]),
+        CHECK(ql_warp_spherical_begin(&s, k[0], k[1], k[2]) &&
+                        ql_warp_spherical_begin(&t, k[0], k[2], k[3]),
                 "z = %ld refused", (long)z);
         got = (double)(solid_angle(&s) + solid_angle(&t));
         CHECK(fabs(got / squares[i].sr - 1) < AREA_ERROR, "z = %ld: %.12g",
@@ -354,9 +354,9 @@ static void check_threshold(int32_t side, long double limit)
         const corners_t k = corners(
                 vec(side, 0, z), vec(-side, side, z), vec(-side, -side, z));
         const long double exact = area_of_corners(k);
-        ql_spherical_t t;
+        ql_warp_spherical_t t;
 
-        CHECK(ql_spherical_begin(&t, k.a, k.b, k.c) ==
+        CHECK(ql_warp_spherical_begin(&t, k.a, k.b, k.c) ==
                         (exact >= 3e-4L && exact <= 6.22L),
                 "side %ld, height %ld: %.12Lg", (long)side, (long)z, exact);
     }
@@ -372,7 +372,7 @@ TEST(both_sides_of_both_thresholds_are_told_apart)
 
 TEST(triangles_that_are_seen_edge_on_are_refused)
 {
-    ql_spherical_t t;
+    ql_warp_spherical_t t;
 
     state = 2;
     for (long i = 0; i < 20000; i++) {
@@ -381,13 +381,14 @@ TEST(triangles_that_are_seen_edge_on_are_refused)
         const ql_vec3_t c = vec(s * a.x + r * b.x, s * a.y + r * b.y,
                 s * a.z + r * b.z); /* through the origin */
 
-        CHECK(!ql_spherical_begin(&t, a, b, c) &&
-                        !ql_spherical_begin(&t, c, a, b) &&
-                        !ql_spherical_begin(&t, a, a, b) &&
-                        !ql_spherical_begin(&t, a, vec(0, 0, 0), b),
+        CHECK(!ql_warp_spherical_begin(&t, a, b, c) &&
+                        !ql_warp_spherical_begin(&t, c, a, b) &&
+                        !ql_warp_spherical_begin(&t, a, a, b) &&
+                        !ql_warp_spherical_begin(&t, a, vec(0, 0, 0), b),
                 SHOW_CORNERS, SHOWN(corners(a, b, c)));
     }
-    CHECK(!ql_spherical_begin(&t, vec(0, 0, 0), vec(0, 0, 0), vec(0, 0, 0)),
+    CHECK(!ql_warp_spherical_begin(
+                  &t, vec(0, 0, 0), vec(0, 0, 0), vec(0, 0, 0)),
             "nothing");
 }
 
@@ -397,13 +398,13 @@ TEST(triangles_that_are_seen_edge_on_are_refused)
 TEST(an_octant_maps_as_its_closed_form)
 {
     const int32_t r = 12345;
-    ql_spherical_t t;
+    ql_warp_spherical_t t;
     point_t w;
     long double worst = 0;
 
-    CHECK(ql_spherical_begin(&t, vec(r, 0, 0), vec(0, r, 0), vec(0, 0, r)),
+    CHECK(ql_warp_spherical_begin(&t, vec(r, 0, 0), vec(0, r, 0), vec(0, 0, r)),
             "refused");
-    w = from_q29(ql_warp_spherical_triangle(&t, 0x3fffffffu, 0x7fffffffu));
+    w = from_q29(ql_warp_spherical(&t, 0x3fffffffu, 0x7fffffffu));
     CHECK(fabsl(w.x - 0.80010315L) < SIDE_ERROR &&
                     fabsl(w.y - 0.5L) < SIDE_ERROR &&
                     fabsl(w.z - 0.33141357L) < SIDE_ERROR,
@@ -416,7 +417,7 @@ TEST(an_octant_maps_as_its_closed_form)
         const long double y = 1 - ldexpl(u2 + 0.5L, -32);
         const long double rho = sqrtl(1 - y * y);
 
-        w = from_q29(ql_warp_spherical_triangle(&t, u1, u2));
+        w = from_q29(ql_warp_spherical(&t, u1, u2));
         worst = fmaxl(worst, fabsl(w.x - rho * cosl(phi)));
         worst = fmaxl(
                 worst, fmaxl(fabsl(w.y - y), fabsl(w.z - rho * sinl(phi))));
@@ -433,10 +434,10 @@ enum { ENDS = sizeof ends / sizeof ends[0] };
 static long double worst_share, worst_side, worst_length, worst_outside;
 
 /* One direction: unit, inside, and where it should be. */
-static void check_direction(const ql_spherical_t *t, const triangle_t *exact,
-        corners_t k, uint32_t u1, uint32_t u2)
+static void check_direction(const ql_warp_spherical_t *t,
+        const triangle_t *exact, corners_t k, uint32_t u1, uint32_t u2)
 {
-    const ql_vec3_t v = ql_warp_spherical_triangle(t, u1, u2);
+    const ql_vec3_t v = ql_warp_spherical(t, u1, u2);
     const point_t w = from_q29(v);
     const long double u1_exact = ldexpl(u1 + 0.5L, -32);
     const long double u2_exact = ldexpl(u2 + 0.5L, -32);
@@ -480,10 +481,10 @@ TEST(directions_are_unit_inside_and_where_arvo_has_them)
     worst_share = worst_side = worst_length = worst_outside = 0;
     for (long i = 0; i < 40000; i++) {
         const corners_t k = random_corners((int)(i % KINDS));
-        ql_spherical_t t;
+        ql_warp_spherical_t t;
         triangle_t exact;
 
-        if (!ql_spherical_begin(&t, k.a, k.b, k.c)) {
+        if (!ql_warp_spherical_begin(&t, k.a, k.b, k.c)) {
             continue;
         }
         exact = named(&t, k);
@@ -507,10 +508,10 @@ TEST(corners_of_the_square_stay_inside_too)
     worst_share = worst_side = worst_length = worst_outside = 0;
     for (long i = 0; i < 2000; i++) {
         const corners_t k = random_corners((int)(i % KINDS));
-        ql_spherical_t t;
+        ql_warp_spherical_t t;
         triangle_t exact;
 
-        if (!ql_spherical_begin(&t, k.a, k.b, k.c)) {
+        if (!ql_warp_spherical_begin(&t, k.a, k.b, k.c)) {
             continue;
         }
         exact = named(&t, k);
@@ -533,11 +534,11 @@ TEST(half_angles_are_arvos_map)
     for (long i = 0; i < 10000; i++) {
         const corners_t k = random_corners(i & 1 ? GENERIC : SMALL);
         const long double u1 = 0.02L + 0.96L * stats_random_unit(&state);
-        ql_spherical_t t;
+        ql_warp_spherical_t t;
         triangle_t exact;
         point_t end;
 
-        if (ql_spherical_begin(&t, k.a, k.b, k.c)) {
+        if (ql_warp_spherical_begin(&t, k.a, k.b, k.c)) {
             exact = named(&t, k);
             end = half_angle_end(&exact, u1);
             worst = fmaxl(worst, distance(end, arvo_end(&exact, u1)));
@@ -562,10 +563,10 @@ TEST(corners_keep_their_names_unless_an_edge_is_longer_than_120_degrees)
                       c = unit(from_int(k.c));
         const long double ab = dot(a, b), bc = dot(b, c), ca = dot(c, a);
         const long double least = fminl(ab, fminl(bc, ca));
-        ql_spherical_t t;
+        ql_warp_spherical_t t;
         point_t want;
 
-        if (!ql_spherical_begin(&t, k.a, k.b, k.c) ||
+        if (!ql_warp_spherical_begin(&t, k.a, k.b, k.c) ||
                 fabsl(least + 0.5L) < 1e-7L ||
                 (ab < least + 1e-7L) + (bc < least + 1e-7L) +
                                 (ca < least + 1e-7L) >
@@ -592,19 +593,19 @@ static const corners_t shapes[] = {
 
 enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
-typedef point_t (*map_t)(const ql_spherical_t *t, const triangle_t *exact,
+typedef point_t (*map_t)(const ql_warp_spherical_t *t, const triangle_t *exact,
         corners_t k, uint32_t u1, uint32_t u2);
 
-static point_t warp(const ql_spherical_t *t, const triangle_t *exact,
+static point_t warp(const ql_warp_spherical_t *t, const triangle_t *exact,
         corners_t k, uint32_t u1, uint32_t u2)
 {
     (void)exact;
     (void)k;
-    return from_q29(ql_warp_spherical_triangle(t, u1, u2));
+    return from_q29(ql_warp_spherical(t, u1, u2));
 }
 
 /* The fault: points uniform on the plane. */
-static point_t plane(const ql_spherical_t *t, const triangle_t *exact,
+static point_t plane(const ql_warp_spherical_t *t, const triangle_t *exact,
         corners_t k, uint32_t u1, uint32_t u2)
 {
     uint32_t b1, b2;
@@ -612,7 +613,7 @@ static point_t plane(const ql_spherical_t *t, const triangle_t *exact,
 
     (void)t;
     (void)exact;
-    ql_warp_triangle(u1, u2, &b1, &b2);
+    ql_warp_plane_triangle(u1, u2, &b1, &b2);
     v1 = ldexp(b1, -QL_BARY_BITS);
     v2 = ldexp(b2, -QL_BARY_BITS);
     return unit(sum(sum(from_int(k.a), 1 - v1 - v2, from_int(k.b), v1), 1,
@@ -620,7 +621,7 @@ static point_t plane(const ql_spherical_t *t, const triangle_t *exact,
 }
 
 /* The fault: u1 a share of the edge instead of the area. */
-static point_t even_edge(const ql_spherical_t *t, const triangle_t *exact,
+static point_t even_edge(const ql_warp_spherical_t *t, const triangle_t *exact,
         corners_t k, uint32_t u1, uint32_t u2)
 {
     const long double x = ldexpl(u1 + 0.5L, -32) * arc(exact->a, exact->c);
@@ -633,7 +634,7 @@ static point_t even_edge(const ql_spherical_t *t, const triangle_t *exact,
 }
 
 /* The fault: u2 a share of the arc's length. */
-static point_t even_arc(const ql_spherical_t *t, const triangle_t *exact,
+static point_t even_arc(const ql_warp_spherical_t *t, const triangle_t *exact,
         corners_t k, uint32_t u1, uint32_t u2)
 {
     const point_t end = half_angle_end(exact, ldexpl(u1 + 0.5L, -32));
@@ -649,10 +650,10 @@ static point_t even_arc(const ql_spherical_t *t, const triangle_t *exact,
 static double chi2_p(map_t map, corners_t k)
 {
     static uint32_t counts[BINS];
-    ql_spherical_t t;
+    ql_warp_spherical_t t;
     triangle_t exact;
 
-    CHECK(ql_spherical_begin(&t, k.a, k.b, k.c), SHOW_CORNERS, SHOWN(k));
+    CHECK(ql_warp_spherical_begin(&t, k.a, k.b, k.c), SHOW_CORNERS, SHOWN(k));
     exact = named(&t, k);
     memset(counts, 0, sizeof counts);
     state = 41;
@@ -723,7 +724,7 @@ static point_t exact_mean(const triangle_t *t)
 enum { GRID = 256 };
 
 /* The map without rounding. */
-static point_t unrounded(const ql_spherical_t *t, const triangle_t *exact,
+static point_t unrounded(const ql_warp_spherical_t *t, const triangle_t *exact,
         corners_t k, uint32_t u1, uint32_t u2)
 {
     (void)t;
@@ -735,10 +736,10 @@ static point_t unrounded(const ql_spherical_t *t, const triangle_t *exact,
 /* The mean over a grid's midpoints. */
 static point_t grid_mean(map_t map, corners_t k, triangle_t *exact)
 {
-    ql_spherical_t t;
+    ql_warp_spherical_t t;
     point_t mean = point(0, 0, 0);
 
-    CHECK(ql_spherical_begin(&t, k.a, k.b, k.c), SHOW_CORNERS, SHOWN(k));
+    CHECK(ql_warp_spherical_begin(&t, k.a, k.b, k.c), SHOW_CORNERS, SHOWN(k));
     *exact = named(&t, k);
     for (uint32_t i = 0; i < GRID * GRID; i++) {
         const point_t w = map(&t, exact, k, i / GRID << 24 | 0x7fffffu,
@@ -779,7 +780,7 @@ TEST(the_mean_direction_is_the_one_the_edges_give)
 
 int main(int argc, char **argv)
 {
-    TEST_BEGIN("unit/test_spherical", argc, argv);
+    TEST_BEGIN("unit/test_warp_spherical", argc, argv);
     RUN(solid_angles_are_within_their_error_between_the_thresholds);
     RUN(squares_have_the_solid_angles_of_their_closed_form);
     RUN(both_sides_of_both_thresholds_are_told_apart);

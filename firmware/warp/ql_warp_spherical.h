@@ -1,11 +1,11 @@
-/* ql_spherical.h - uniform directions towards a triangle */
+/* ql_warp_spherical.h - uniform directions towards a triangle */
 /* SPDX-License-Identifier: MIT */
 
-#ifndef QL_SPHERICAL_H
-#define QL_SPHERICAL_H
+#ifndef QL_WARP_SPHERICAL_H
+#define QL_WARP_SPHERICAL_H
 
 #include "math/ql_real.h"
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 
 /* A triangle as seen from a point: what sampling needs of it, worked out once.
  * Its angle at a is alpha, its edge from a to b is c long. */
@@ -16,7 +16,7 @@ typedef struct {
     ql_real_t q;           /* tan(c / 2) |cos(alpha)| */
     bool obtuse;           /* is cos(alpha) below 0? */
     ql_real_t solid_angle; /* sr */
-} ql_spherical_t;
+} ql_warp_spherical_t;
 
 /* See a triangle from a point.
  *
@@ -38,12 +38,12 @@ typedef struct {
  *        the edges that meet at a: Van Oosterom and Strackee, "The Solid Angle
  *        of a Plane Triangle", 1983, in half angles, so that nothing cancels.
  */
-bool ql_spherical_begin(
-        ql_spherical_t *t, ql_vec3_t a, ql_vec3_t b, ql_vec3_t c);
+bool ql_warp_spherical_begin(
+        ql_warp_spherical_t *t, ql_vec3_t a, ql_vec3_t b, ql_vec3_t c);
 
 /* Uniform on a spherical triangle; pdf 1/solid_angle per solid angle.
  *
- *   t       -      from ql_spherical_begin()
+ *   t       -      from ql_warp_spherical_begin()
  *   u1, u2  uq32   uniform; u1 is the share of the area between the edge from a
  *                  to b and the arc from b through the direction, u2 that of
  *                  1 - cos along this arc, from b
@@ -60,7 +60,16 @@ bool ql_spherical_begin(
  *        cancel: the point x along the edge from a to c cuts off the area y
  *        where tan(x / 2) = sin(y / 2) / (p cos(y / 2) - q sin(y / 2)).
  */
-ql_vec3_t ql_warp_spherical_triangle(
-        const ql_spherical_t *t, ql_uq32_t u1, ql_uq32_t u2);
+ql_vec3_t ql_warp_spherical(
+        const ql_warp_spherical_t *t, ql_uq32_t u1, ql_uq32_t u2);
+
+/* Density of ql_warp_spherical(), per solid angle.
+ *
+ *   t       -     from ql_warp_spherical_begin()
+ *   return  real  1 / solid_angle inside the triangle
+ *
+ * Error: relative, that of the solid angle and 2^-29.
+ */
+ql_real_t ql_warp_spherical_pdf(const ql_warp_spherical_t *t);
 
 #endif

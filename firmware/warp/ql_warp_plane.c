@@ -1,9 +1,8 @@
-/* ql_square.c - concentric map of the square to the disk */
+/* ql_warp_plane.c - concentric map to the disk, weights of a triangle */
 /* SPDX-License-Identifier: MIT */
 
-#include "warp/ql_square.h"
+#include "warp/ql_warp_plane.h"
 
-#include "math/ql_real.h"
 #include "math/ql_trig.h"
 
 /* a times the radius, u0.32, to nearest: s1.30 to s2.29, with a sign. */
@@ -14,7 +13,7 @@ static ql_q29_t times_radius(int32_t a, uint32_t radius, bool negative)
     return negative ? -r : r;
 }
 
-void ql_warp_disk(ql_uq32_t u1, ql_uq32_t u2, ql_q29_t *x, ql_q29_t *y)
+void ql_warp_plane_disk(ql_uq32_t u1, ql_uq32_t u2, ql_q29_t *x, ql_q29_t *y)
 {
     /* 2 u - 1 at the midpoint of 31 bits: odd, so never 0, s0.31 */
     const int32_t a = ql_i32((u1 | 1u) ^ 0x80000000u);
@@ -35,4 +34,17 @@ void ql_warp_disk(ql_uq32_t u1, ql_uq32_t u2, ql_q29_t *x, ql_q29_t *y)
     /* the larger's axis takes the cosine; each keeps its own sign */
     *x = times_radius(by_a ? cosine : sine, large << 1, a < 0);
     *y = times_radius(by_a ? sine : cosine, large << 1, b < 0);
+}
+
+void ql_warp_plane_triangle(
+        ql_uq32_t u1, ql_uq32_t u2, uint32_t *b1, uint32_t *b2)
+{
+    /* midpoints of QL_BARY_BITS - 2 bits, as odd numbers of one bit more */
+    const uint32_t x = u1 >> (34 - QL_BARY_BITS) << 1 | 1u;
+    const uint32_t y = u2 >> (34 - QL_BARY_BITS) << 1 | 1u;
+
+    /* b0 = x, b1 = 2y - x or b1 = y, b0 = 2x - y; then b2 = 1 - b0 - b1.
+     * Returned as the weights of vertices 1 and 2. */
+    *b1 = x < y ? x : 2 * x - y;
+    *b2 = x < y ? 2 * y - x : y;
 }

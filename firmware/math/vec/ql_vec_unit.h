@@ -14,7 +14,7 @@
 #ifndef QL_VEC_UNIT_H
 #define QL_VEC_UNIT_H
 
-#include "math/ql_vec.h"
+#include "math/vec/ql_vec.h"
 
 /* 1/|n|, unpacked. Exact. */
 QL_INLINE ql_real_t ql_vec_unit_unpack_inv_n(uint32_t inv_n)

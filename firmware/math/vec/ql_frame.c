@@ -1,7 +1,7 @@
 /* ql_frame.c - complete a unit vector to a frame, turn a direction by it */
 /* SPDX-License-Identifier: MIT */
 
-#include "math/ql_frame.h"
+#include "math/vec/ql_frame.h"
 
 #define ONE_Q29 ((int32_t)1 << 29)
 

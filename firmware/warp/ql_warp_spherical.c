@@ -1,7 +1,7 @@
-/* ql_spherical.c - uniform directions towards a triangle */
+/* ql_warp_spherical.c - uniform directions towards a triangle */
 /* SPDX-License-Identifier: MIT */
 
-#include "warp/ql_spherical.h"
+#include "warp/ql_warp_spherical.h"
 
 #include "math/ql_trig.h"
 
@@ -118,7 +118,7 @@ static unsigned first_corner(const ql_vec3_t unit[3])
 }
 
 /* Half the solid angle, whose tangent is p / (cot_b +- q). */
-static ql_real_t half_area(const ql_spherical_t *t, ql_real_t cot_b)
+static ql_real_t half_area(const ql_warp_spherical_t *t, ql_real_t cot_b)
 {
     const ql_real_t below_0 = ql_real_sub(t->q, cot_b);
     const bool beyond = t->obtuse && below_0.m != 0;
@@ -138,7 +138,7 @@ static QL_NOINLINE ql_real_t length_sum(ql_real_t a, ql_real_t b, int64_t both)
 }
 
 /* The angle at the corner a, and the edges that meet there. */
-static bool measure(ql_spherical_t *t, const ql_vec3_t corner[3],
+static bool measure(ql_warp_spherical_t *t, const ql_vec3_t corner[3],
         const ql_real_t length[3], unsigned ia)
 {
     const unsigned ib = ia == 2 ? 0 : ia + 1, ic = ia == 0 ? 2 : ia - 1;
@@ -182,8 +182,8 @@ static bool measure(ql_spherical_t *t, const ql_vec3_t corner[3],
     return true;
 }
 
-bool ql_spherical_begin(
-        ql_spherical_t *t, ql_vec3_t a, ql_vec3_t b, ql_vec3_t c)
+bool ql_warp_spherical_begin(
+        ql_warp_spherical_t *t, ql_vec3_t a, ql_vec3_t b, ql_vec3_t c)
 {
     const ql_vec3_t corner[3] = {a, b, c};
     ql_vec3_t unit[3];
@@ -214,7 +214,7 @@ bool ql_spherical_begin(
 /* ---- Directions --------------------------------------------------------- */
 
 /* The point of the edge from a to c that cuts off the area 2 y. */
-static ql_vec3_t along_edge(const ql_spherical_t *t, ql_real_t y)
+static ql_vec3_t along_edge(const ql_warp_spherical_t *t, ql_real_t y)
 {
     const bool beyond = ql_real_less(QL_REAL_HALF_PI, y);
     const ql_real_t sine = ql_real_sin(y);
@@ -292,11 +292,16 @@ static ql_vec3_t along_arc(ql_vec3_t b, ql_vec3_t c, ql_uq32_t u)
     return w;
 }
 
-ql_vec3_t ql_warp_spherical_triangle(
-        const ql_spherical_t *t, ql_uq32_t u1, ql_uq32_t u2)
+ql_vec3_t ql_warp_spherical(
+        const ql_warp_spherical_t *t, ql_uq32_t u1, ql_uq32_t u2)
 {
     const ql_real_t half = ql_real_mul_call(
             ql_real_midpoint(u1), ql_real_scale(t->solid_angle, -1));
 
     return along_arc(t->b, along_edge(t, half), u2);
+}
+
+ql_real_t ql_warp_spherical_pdf(const ql_warp_spherical_t *t)
+{
+    return ql_real_recip_call(t->solid_angle);
 }

@@ -1,4 +1,4 @@
-/* test_warp.c - warps follow their densities; planted faults are rejected */
+/* test_warp_sphere.c - sphere, cosine hemisphere, triangle against densities */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
@@ -7,8 +7,10 @@
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
-#include "math/ql_vec_unit.h"
-#include "warp/ql_warp.h"
+#include "math/vec/ql_vec_unit.h"
+#include "warp/ql_warp_hemisphere.h"
+#include "warp/ql_warp_plane.h"
+#include "warp/ql_warp_sphere.h"
 
 #define PI           3.14159265358979323846
 #define LENGTH_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.3e-5 : 5e-8)
@@ -281,7 +283,7 @@ static bool round_direction;
 /* About normal_q29, as a unit vector; rounded as a ray's direction if asked. */
 static point_t cosine(uint32_t u1, uint32_t u2)
 {
-    ql_vec3_t v = ql_warp_cosine_hemisphere(normal_q29, u1, u2);
+    ql_vec3_t v = ql_warp_hemisphere_cosine(normal_q29, u1, u2);
     point_t p;
 
     if (round_direction) {
@@ -406,7 +408,7 @@ TEST(directions_below_the_horizon_are_as_rare_as_stated)
         if ((i & 1023) == 0) {
             normal_q29 = normal_of(6 + (unsigned)(i >> 10 & 255));
         }
-        v = ql_vec_to_dir(ql_warp_cosine_hemisphere(
+        v = ql_vec_to_dir(ql_warp_hemisphere_cosine(
                 normal_q29, (uint32_t)bits, (uint32_t)(bits >> 32)));
         below += (int64_t)v.x * normal_q29.x + (int64_t)v.y * normal_q29.y +
                          (int64_t)v.z * normal_q29.z <=
@@ -519,7 +521,7 @@ TEST(triangle_map_is_a_bijection_into_the_triangle)
             const uint32_t u2 = j << (32 - BITS);
             uint32_t b1, b2;
 
-            ql_warp_triangle(u1, u2, &b1, &b2);
+            ql_warp_plane_triangle(u1, u2, &b1, &b2);
             if ((uint64_t)b1 + b2 >= BARY_ONE ||
                     !leads_back(b1, b2, u1 >> (34 - QL_BARY_BITS) << 1 | 1u,
                             u2 >> (34 - QL_BARY_BITS) << 1 | 1u)) {
@@ -543,7 +545,7 @@ TEST(triangle_map_keeps_inside_at_the_ends_of_the_square)
     for (size_t i = 0; i < n * n; i++) {
         uint32_t b1, b2;
 
-        ql_warp_triangle(ends[i % n], ends[i / n], &b1, &b2);
+        ql_warp_plane_triangle(ends[i % n], ends[i / n], &b1, &b2);
         CHECK(b1 > 0 && b2 > 0 && (uint64_t)b1 + b2 < BARY_ONE,
                 "u = %08lx, %08lx: %08lx, %08lx", (unsigned long)ends[i % n],
                 (unsigned long)ends[i / n], (unsigned long)b1,
@@ -556,7 +558,7 @@ static point_t triangle(uint32_t u1, uint32_t u2)
     uint32_t b1, b2;
     point_t p;
 
-    ql_warp_triangle(u1, u2, &b1, &b2);
+    ql_warp_plane_triangle(u1, u2, &b1, &b2);
     p.x = ldexp(b1, -QL_BARY_BITS);
     p.y = ldexp(b2, -QL_BARY_BITS);
     p.z = 1 - p.x - p.y;
@@ -627,7 +629,7 @@ TEST(a_triangle_of_two_square_roots_is_rejected)
 
 int main(int argc, char **argv)
 {
-    TEST_BEGIN("unit/test_warp", argc, argv);
+    TEST_BEGIN("unit/test_warp_sphere", argc, argv);
     RUN_IF(TABLES_EXACT, sphere_is_uniform);
     RUN(sphere_of_z_from_0_is_rejected);
     RUN(sphere_points_have_unit_length);

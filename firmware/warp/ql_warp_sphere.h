@@ -1,0 +1,65 @@
+/* ql_warp_sphere.h - points of the unit sphere, uniform or by their angles */
+/* SPDX-License-Identifier: MIT */
+
+/* A warp maps uniform u1, u2 to a domain; its density stands beside it with the
+ * same name and _pdf. A uniform number stands for the midpoint of its interval.
+ * "GI" is Dutre's Global Illumination Compendium (2003).
+ *
+ * Directions about an axis come in a local frame whose z is the axis;
+ * ql_frame_to_world() turns them. How far one is from the axis is kept as
+ * s = 1 - cos(theta), never as the cosine, because near the axis the cosine has
+ * no bits left; sin^2(theta) = s (2 - s). */
+
+#ifndef QL_WARP_SPHERE_H
+#define QL_WARP_SPHERE_H
+
+#include "math/vec/ql_vec.h"
+
+#define QL_WARP_ONE_Q29 ((int32_t)1 << 29)
+
+/* 1 / (4 pi), u0.32. */
+#define QL_WARP_INV_4PI_UQ32 0x145f306eu
+
+/* Uniform on the unit sphere; pdf 1/(4 pi) per solid angle.
+ *
+ *   u1, u2  uq32   uniform
+ *   return  s2.29  unit vector: z = 1 - 2 u1, azimuth 2 pi u2
+ *
+ * Error: length within 2.3e-5 (draft) or 5e-8 (fine) of 1.
+ * Cost:  one square root, one sine and cosine.
+ * From:  GI (33).
+ */
+ql_vec3_t ql_warp_sphere(ql_uq32_t u1, ql_uq32_t u2);
+
+/* Density of ql_warp_sphere(), per solid angle.
+ *
+ *   return  uq32  1/(4 pi)
+ */
+QL_INLINE ql_uq32_t ql_warp_sphere_pdf(void)
+{
+    return QL_WARP_INV_4PI_UQ32;
+}
+
+/* A point by its distance from the axis, azimuth and height.
+ *
+ *   rho      uq32    distance from the axis
+ *   azimuth  turn32  about the axis
+ *   z        s2.29   height
+ *   return   s2.29   (rho cos, rho sin, z), x and y to nearest
+ *
+ * Cost: one sine and cosine, two multiplications.
+ */
+ql_vec3_t ql_warp_sphere_polar(ql_uq32_t rho, ql_turn32_t azimuth, ql_q29_t z);
+
+/* A point by how far it is from the axis.
+ *
+ *   s        real    1 - z in [0, 1]; above 1 points end at the horizon
+ *   azimuth  turn32  about the axis
+ *   return   s2.29   unit vector
+ *
+ * Error: z to nearest; x, y to nearest and the errors of square root and sine.
+ * Cost:  one square root, one sine and cosine, three multiplications.
+ */
+ql_vec3_t ql_warp_sphere_off_axis(ql_real_t s, ql_turn32_t azimuth);
+
+#endif
