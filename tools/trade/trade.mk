@@ -14,7 +14,8 @@ trade_tables := $(foreach l,math sample warp,$(wildcard firmware/$l/*.c \
     firmware/$l/*/*.c))
 # What a firmware of bench_settings.c is made of.
 CORE := $(core_src) $(wildcard firmware/app/*.c firmware/*.h firmware/*/*.h \
-    firmware/*/*/*.h hal/*.h) tests/bench/bench_settings.c $(wildcard tests/bench/bench_board.*)
+    firmware/*/*/*.h hal/*.h) tests/bench/bench_settings.c \
+    $(wildcard tests/bench/bench_board.*)
 trade_done = > $@.tmp 2> $@.log && mv $@.tmp $@ || \
     { tail -n 5 $@.log >&2; exit 1; }
 
