@@ -180,17 +180,3 @@ ql_uq32_t ql_sqrt_uq32(ql_uq32_t x)
     return root < 0x80000000u ? root << 1 >> (shift / 2)
                               : 0xffffffffu >> (shift / 2);
 }
-
-ql_uq32_t ql_sqrt_uq32_of_real(ql_real_t a)
-{
-    const unsigned shift = (unsigned)(-32 - a.e); /* a = m 2^-32 2^-shift */
-    const uint32_t m = a.m >> (shift & 1u);       /* >= 2^30, even shift */
-    uint32_t half;
-
-    if (a.m == 0 || shift > 62) {
-        return 0;
-    }
-    half = ql_mulhi_u32(m, ql_rsqrt_warp_m(m)); /* sqrt(m 2^-32) 2^31 */
-    half = half < 0x80000000u ? half << 1 : 0xffffffffu;
-    return half >> (shift / 2);
-}

@@ -13,6 +13,7 @@
 #ifndef QL_WARP_SPHERE_H
 #define QL_WARP_SPHERE_H
 
+#include "math/ql_trig.h"
 #include "math/vec/ql_vec.h"
 
 #define QL_WARP_ONE_Q29 ((int32_t)1 << 29)
@@ -49,7 +50,19 @@ QL_INLINE ql_uq32_t ql_warp_sphere_pdf(void)
  *
  * Cost: one sine and cosine, two multiplications.
  */
-ql_vec3_t ql_warp_sphere_polar(ql_uq32_t rho, ql_turn32_t azimuth, ql_q29_t z);
+static inline ql_vec3_t ql_warp_sphere_polar(
+        ql_uq32_t rho, ql_turn32_t azimuth, ql_q29_t z)
+{
+    int32_t sine, cosine;
+    ql_vec3_t v;
+
+    ql_sincos(azimuth, &sine, &cosine);
+    /* s1.30 times u0.32, high word: s1.30, below 2^30 + 2^15 */
+    v.x = ql_asr32(ql_mulhi_su32(cosine, rho) + 1, 1);
+    v.y = ql_asr32(ql_mulhi_su32(sine, rho) + 1, 1);
+    v.z = z;
+    return v;
+}
 
 /* A point by how far it is from the axis.
  *
@@ -60,6 +73,16 @@ ql_vec3_t ql_warp_sphere_polar(ql_uq32_t rho, ql_turn32_t azimuth, ql_q29_t z);
  * Error: z to nearest; x, y to nearest and the errors of square root and sine.
  * Cost:  one square root, one sine and cosine, three multiplications.
  */
-ql_vec3_t ql_warp_sphere_off_axis(ql_real_t s, ql_turn32_t azimuth);
+static inline ql_vec3_t ql_warp_sphere_off_axis(
+        ql_real_t s, ql_turn32_t azimuth)
+{
+    const ql_uq32_t fixed = ql_real_to_uq32(s);
+    /* (2 - s) 2^31 in [2^31, 2^32), rounded down so that the sine is <= 1 */
+    const ql_real_t rest = QL_REAL(~(fixed >> 1), -31);
+    const ql_q29_t z = QL_WARP_ONE_Q29 - (int32_t)(((fixed >> 2) + 1) >> 1);
+
+    return ql_warp_sphere_polar(
+            ql_sqrt_uq32_of_real(ql_real_mul(s, rest)), azimuth, z);
+}
 
 #endif
