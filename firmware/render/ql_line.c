@@ -63,64 +63,92 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
     return QL_OK;
 }
 
+/* Add samples first .. first + count - 1 of a pixel; its sampler has begun. */
+static void add_samples(ql_render_t *render, const ql_camera_pixel_t *pixel,
+        ql_sampler_t *sampler, uint32_t first, uint32_t count, ql_sum_t *sum)
+{
+    const ql_context_t context = {
+            .scene = render->scene,
+            .settings = &render->settings,
+            .sampler = sampler,
+            .sum = sum,
+            .diag = &render->diag,
+    };
+
+    QL_ASSERT(first <= QL_SPP_MAX && count <= QL_SPP_MAX - first);
+    for (uint32_t i = 0; i < count; i++) {
+        ql_uniform2_t u, lens;
+        ql_ray_t ray;
+
+        /* Draw a point of the pixel, and one of the lens if there is one. */
+        ql_sampler_start(sampler, first + i);
+        u = ql_sampler_2d(sampler, QL_DIM_PIXEL);
+        lens = u; /* not looked at without a lens */
+        if (ql_scene_lens(render->scene) != NULL) {
+            lens = ql_sampler_2d(sampler, QL_DIM_LENS);
+        }
+
+        /* Follow the path, or see the sky past the scene. */
+        if (ql_camera_ray(pixel, u, lens, &ray)) {
+            ql_path_trace(&context, &ray);
+        } else {
+            ql_path_miss(&context, &ray);
+        }
+    }
+}
+
 void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count, ql_sum_t *sum)
 {
     const ql_settings_t *s = &render->settings;
     ql_camera_pixel_t pixel;
     ql_sampler_t sampler;
-    const ql_path_t path = {render->scene, s, &sampler, sum, &render->diag};
 
     QL_ASSERT(x < s->width && y < s->height);
-    QL_ASSERT(first <= QL_SPP_MAX && count <= QL_SPP_MAX - first);
     ql_camera_pixel(&pixel, &render->camera, x, y);
     ql_sampler_begin(&sampler, s->sampler, s->seed, x, y);
-    for (uint32_t i = 0; i < count; i++) {
-        ql_uniform2_t u, lens;
-        ql_ray_t ray;
-
-        ql_sampler_start(&sampler, first + i);
-        u = ql_sampler_2d(&sampler, QL_DIM_PIXEL);
-        lens = u; /* not used without a lens */
-#if QL_CFG_LENS
-        if (render->scene->lens != NULL) {
-            lens = ql_sampler_2d(&sampler, QL_DIM_LENS);
-        }
-#endif
-        if (ql_camera_ray(&pixel, u, lens, &ray)) {
-            ql_path_trace(&path, &ray);
-        } else if (QL_CFG_SKY) {
-            ql_path_miss(&path, &ray);
-        }
-    }
+    add_samples(render, &pixel, &sampler, first, count, sum);
 }
 
 #if QL_CFG_ADAPTIVE
+/* Add samples to a half of a pixel until it has count, each for itself. */
+static void fill_half(ql_render_t *render, const ql_camera_pixel_t *pixel,
+        ql_sampler_t *sampler, uint32_t count, ql_half_t *half)
+{
+    while (half->spread.count < count) {
+        ql_sum_t sample = {{0, 0, 0}};
+
+        add_samples(render, pixel, sampler, half->spread.count, 1, &sample);
+        ql_half_add(half, &sample);
+    }
+}
+
 uint32_t ql_render_adaptive(
         ql_render_t *render, uint16_t x, uint16_t y, ql_sum_t *sum)
 {
     static const ql_sum_t black;
     static const ql_half_t none;
     const ql_settings_t *s = &render->settings;
+    const uint32_t seeds[2] = {s->seed, s->seed ^ QL_ADAPTIVE_SEED};
     const uint32_t last = s->spp / 2; /* in each half */
     ql_half_t half[2];
     uint32_t count = QL_ADAPTIVE_MIN / 2;
+    ql_camera_pixel_t pixel;
+    ql_sampler_t sampler;
 
+    QL_ASSERT(x < s->width && y < s->height);
+    ql_camera_pixel(&pixel, &render->camera, x, y);
     if (s->error_q16 == 0 || s->spp < QL_ADAPTIVE_MIN) {
         *sum = black;
-        ql_render_pixel(render, x, y, 0, s->spp, sum);
+        ql_sampler_begin(&sampler, s->sampler, s->seed, x, y);
+        add_samples(render, &pixel, &sampler, 0, s->spp, sum);
         return s->spp;
     }
     half[0] = half[1] = none;
     do {
         for (unsigned k = 0; k < 2; k++) {
-            while (half[k].spread.count < count) {
-                ql_sum_t sample = black;
-
-                ql_render_pixel(render, x, y, half[k].spread.count, 1, &sample);
-                ql_half_add(half + k, &sample);
-            }
-            render->settings.seed ^= QL_ADAPTIVE_SEED; /* twice: as it was */
+            ql_sampler_begin(&sampler, s->sampler, seeds[k], x, y);
+            fill_half(render, &pixel, &sampler, count, half + k);
         }
         count = 2 * count < last ? 2 * count : last;
     } while (!ql_half_decide(half, s->error_q16, half[0].spread.count == last));
@@ -143,19 +171,11 @@ void ql_render_encode(const ql_render_t *render, uint16_t x, uint16_t y,
 void ql_render_line(ql_render_t *render, uint16_t y, const ql_output_t *outputs,
         uint8_t count)
 {
-#if !QL_CFG_ADAPTIVE
-    const uint32_t spp = render->settings.spp;
-#endif
-
     QL_ASSERT(y < render->settings.height && count > 0);
     for (uint16_t x = 0; x < render->settings.width; x++) {
-        ql_sum_t sum = {{0, 0, 0}};
-#if QL_CFG_ADAPTIVE
-        const uint32_t spp = ql_render_adaptive(render, x, y, &sum);
-#else
+        ql_sum_t sum;
+        const uint32_t samples = ql_render_adaptive(render, x, y, &sum);
 
-        ql_render_pixel(render, x, y, 0, spp, &sum);
-#endif
-        ql_render_encode(render, x, y, &sum, spp, outputs, count);
+        ql_render_encode(render, x, y, &sum, samples, outputs, count);
     }
 }

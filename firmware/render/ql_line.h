@@ -49,7 +49,6 @@ QL_MUST_CHECK ql_status_t ql_render_init(ql_render_t *render,
 void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count, ql_sum_t *sum);
 
-#if QL_CFG_ADAPTIVE
 /* Render one pixel until its error is small enough (ql_adaptive.h).
  *
  *   render  -       from ql_render_init(); error_q16 0 asks for all samples
@@ -61,8 +60,17 @@ void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
  * A function of (blob, settings, x, y). The error is estimated from single
  * samples: with Sobol points, which vary less together, it is overestimated.
  */
+#if QL_CFG_ADAPTIVE
 uint32_t ql_render_adaptive(
         ql_render_t *render, uint16_t x, uint16_t y, ql_sum_t *sum);
+#else
+QL_INLINE uint32_t ql_render_adaptive(
+        ql_render_t *render, uint16_t x, uint16_t y, ql_sum_t *sum)
+{
+    sum->rgb[0] = sum->rgb[1] = sum->rgb[2] = 0;
+    ql_render_pixel(render, x, y, 0, render->settings.spp, sum);
+    return render->settings.spp;
+}
 #endif
 
 /* Encode one pixel from its sums.

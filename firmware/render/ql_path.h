@@ -4,23 +4,33 @@
 #ifndef QL_PATH_H
 #define QL_PATH_H
 
-#include "render/ql_direct.h"
+#include "render/ql_context.h"
 
 /* Follow one path and add the light it carries to a pixel.
  *
- *   path  -  scene, settings, sampler started for this sample, sum, counters
- *   ray   -  the camera ray, in the box
+ *   context     -  scene, settings, sampler started for this sample, sum,
+ *                  counters
+ *   camera_ray  -  in the box
  *
- * Emitters count exactly once: where the camera ray hits them, and at every
+ * Emitters count exactly once: where the camera ray meets them, and at every
  * vertex by the direct strategy.
  */
-void ql_path_trace(const ql_path_t *path, const ql_ray_t *ray);
+void ql_path_trace(const ql_context_t *context, const ql_ray_t *camera_ray);
 
-/* Add what is seen by a camera ray that misses the scene's box: the sky.
+/* Add what a camera ray sees that misses the scene's box: the sky.
  *
- *   path  -  likewise
- *   ray   -  only its direction counts
+ *   context     -  as above
+ *   camera_ray  -  only its direction is looked at
  */
-void ql_path_miss(const ql_path_t *path, const ql_ray_t *ray);
+#if QL_CFG_SKY
+void ql_path_miss(const ql_context_t *context, const ql_ray_t *camera_ray);
+#else
+QL_INLINE void ql_path_miss(
+        const ql_context_t *context, const ql_ray_t *camera_ray)
+{
+    (void)context;
+    (void)camera_ray;
+}
+#endif
 
 #endif

@@ -44,6 +44,15 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
 #if QL_CFG_GLASS
 void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         const ql_surface_t *surface, ql_vec3_t *p);
+#else
+QL_INLINE void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
+        const ql_surface_t *surface, ql_vec3_t *p)
+{
+    (void)scene;
+    (void)tri_idx;
+    (void)surface;
+    (void)p;
+}
 #endif
 
 /* Step p along the dominant axis of n until n.(p - on) > 0.

@@ -4,6 +4,8 @@
 #include "bench/bench_board.h"
 #include "blob/ql_blob_open.h"
 
+#include "blob/ql_blob_open.h"
+
 int bench_run(ql_status_t (*run)(void))
 {
     ql_status_t status = ql_hal_init();

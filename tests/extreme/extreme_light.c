@@ -12,7 +12,7 @@
 #include "light/ql_emit.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
-#include "render/ql_direct.h"
+#include "render/ql_next_event.h"
 #include "trace/ql_sphere.h"
 
 #define RADIANCE 0.5
@@ -381,26 +381,37 @@ static const ql_blob_material_t *white(void)
     return at;
 }
 
+/* The first vertex of a path, there, of throughput 1. */
+static void begin_vertex(ql_vertex_t *vertex, const ql_surface_t *surface)
+{
+    static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
+    static const ql_vec3_t down = {0, 0, -1};
+
+    vertex->dim = QL_DIM_BOUNCE(0);
+    vertex->surface = *surface;
+    vertex->throughput = &one;
+    vertex->reflected = one;
+    ql_bsdf_begin(&vertex->bsdf, &scene, &vertex->surface, white(), true, down);
+}
+
 /* Light drawn towards the emitters from there, in units of theirs. */
 static stats_moments_t light_at(
         unsigned direct, const ql_surface_t *surface, uint32_t samples)
 {
-    static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
-    static const ql_vec3_t down = {0, 0, -1};
     const ql_settings_t s = settings_of(direct, 0);
     stats_moments_t got = {0, 0, 0};
     ql_sampler_t sampler;
     ql_sum_t sum;
-    const ql_path_t path = {&scene, &s, &sampler, &sum, &diag};
-    ql_bsdf_t bsdf;
+    const ql_context_t context = {&scene, &s, &sampler, &sum, &diag};
+    ql_vertex_t vertex;
 
-    ql_bsdf_begin(&bsdf, &scene, surface, white(), true, down);
+    begin_vertex(&vertex, surface);
     ql_sampler_begin(&sampler, s.sampler, s.seed, 0, 0);
     memset(&diag, 0, sizeof diag);
     for (uint32_t i = 0; i < samples; i++) {
         memset(&sum, 0, sizeof sum);
         ql_sampler_start(&sampler, i);
-        ql_direct_light(&path, QL_DIM_BOUNCE(0), &bsdf, &one, &one);
+        ql_next_event(&context, &vertex);
         stats_add(&got, ldexp((double)sum.rgb[0], -QL_SUM_BITS) / RADIANCE);
     }
     return got;
@@ -409,16 +420,15 @@ static stats_moments_t light_at(
 /* The point of the lamp that a sample draws, as the surface itself. */
 static void check_same_point(unsigned direct, uint32_t index)
 {
-    static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
     const ql_settings_t s = settings_of(direct, 0);
     const ql_vec3_t below = vec(16004 * ONE, 16004 * ONE, 16001 * ONE);
     ql_sampler_t sampler;
     ql_sum_t sum = {{0, 0, 0}};
-    const ql_path_t path = {&scene, &s, &sampler, &sum, &diag};
+    const ql_context_t context = {&scene, &s, &sampler, &sum, &diag};
     ql_emit_point_t point;
     ql_surface_t surface;
     ql_uniform2_t u;
-    ql_bsdf_t bsdf;
+    ql_vertex_t vertex;
     uint16_t light;
     ql_vec3_t w;
 
@@ -432,8 +442,8 @@ static void check_same_point(unsigned direct, uint32_t index)
     patch_at(point.q, &surface);
     (void)ql_emit_triangle_facing(&scene, light, surface.p, u, &point, &w);
     CHECK((w.x | w.y) == 0, "the point is not the surface");
-    ql_bsdf_begin(&bsdf, &scene, &surface, white(), true, vec(0, 0, -1));
-    ql_direct_light(&path, QL_DIM_BOUNCE(0), &bsdf, &one, &one);
+    begin_vertex(&vertex, &surface);
+    ql_next_event(&context, &vertex);
     CHECK(sum.rgb[0] == 0, "direct %u, sample %lu adds %llu", direct,
             (unsigned long)index, (unsigned long long)sum.rgb[0]);
 }

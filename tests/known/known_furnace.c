@@ -16,7 +16,7 @@
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "math/vec/ql_vec_unit.h"
-#include "render/ql_direct.h"
+#include "render/ql_next_event.h"
 #include "warp/ql_warp_hemisphere.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_surface_at.h"
@@ -270,28 +270,29 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
     static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
     const ql_settings_t settings = QL_SETTINGS_DEFAULT;
     ql_diag_t diag = {0};
-    const ql_path_t path = {scene, &settings, sampler, sum, &diag};
+    const ql_context_t context = {scene, &settings, sampler, sum, &diag};
+    ql_vertex_t vertex = {.throughput = &one, .reflected = one};
 
     for (unsigned bounce = 0; bounce <= bounces; bounce++) {
         const uint32_t dim = QL_DIM_BOUNCE(bounce);
         const ql_uniform2_t u = ql_sampler_2d(sampler, dim + QL_DIM_DIRECTION);
-        ql_surface_t surface;
-        ql_bsdf_t bsdf;
+        ql_surface_t *const surface = &vertex.surface;
         ql_hit_t hit;
         ql_vec3_t n;
 
         if (!ql_bvh_closest_hit(scene, &ray, &hit)) {
             return;
         }
-        ql_surface_at(scene, &ray, &hit, &surface);
-        ql_bsdf_begin(&bsdf, scene, &surface,
+        ql_surface_at(scene, &ray, &hit, surface);
+        ql_bsdf_begin(&vertex.bsdf, scene, surface,
                 ql_scene_material(scene, scene->triangles + hit.tri_idx),
                 hit.front, ray.direction);
-        ql_direct_light(&path, dim, &bsdf, &one, &one);
-        n = ql_vec_unit_q29_of_inv_n(surface.n, surface.inv_n);
-        ray.origin = surface.p;
+        vertex.dim = dim;
+        ql_next_event(&context, &vertex);
+        n = ql_vec_unit_q29_of_inv_n(surface->n, surface->inv_n);
+        ray.origin = surface->p;
         ray.direction = ql_vec_to_dir(ql_warp_hemisphere_cosine(n, u.u1, u.u2));
-        if (ql_vec_dot_normal(ray.direction, surface.n) <= 0) {
+        if (ql_vec_dot_normal(ray.direction, surface->n) <= 0) {
             ray.direction = ql_vec_to_dir(n);
         }
     }

@@ -2,7 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 /* Which rays are drawn, what each may see and which random numbers it takes is
- * as in render/ql_path.c and render/ql_direct.c. */
+ * as in render/ql_path.c and render/ql_next_event.c. */
 
 #include "ref/ref_parts.h"
 #include "light/ql_light.h"

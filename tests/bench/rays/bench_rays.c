@@ -21,7 +21,7 @@ QL_NOINLINE ql_vec3_t bench_direction(const bench_warp_t *warp)
     return ql_vec_dot_normal(d, warp->n) > 0 ? d : ql_vec_to_dir(n);
 }
 
-/* As ql_direct_light(), up to the segment it tests. */
+/* As ql_next_event(), up to the segment it tests. */
 static void add_shadow(bench_batch_t *batch, const ql_scene_t *scene,
         const ql_sampler_t *sampler, uint32_t dim, const ql_surface_t *surface)
 {

@@ -454,7 +454,8 @@ static ql_real_t unpack_inverse(uint32_t inv_n)
     return a;
 }
 
-/* Relative error of geometry() in ql_direct.c, the reciprocal exact or not. */
+/* Relative error of geometry() in ql_next_event.c, with or without the exact
+ * reciprocal. */
 static double geometry_error(const rounding_t *r, const ref_surface_t *surface,
         const ref_aim_t *aim, bool recip)
 {

@@ -1,0 +1,58 @@
+/* ql_mis.c - multiple importance sampling: weights by the balance heuristic */
+/* SPDX-License-Identifier: MIT */
+
+#include "render/ql_mis.h"
+
+#include "light/ql_emit.h"
+#include "light/ql_light.h"
+
+#if QL_CFG_STRATEGIES
+
+ql_real_t ql_mis_weight(ql_real_t h)
+{
+    ql_real_t below;
+
+    if (h.m == 0 || h.e < -93) {
+        return h; /* h < 2^-61 */
+    }
+    if (h.e >= 0) {
+        return QL_REAL_ONE; /* h >= 2^31 */
+    }
+    if (h.e >= -31) {
+        /* 1 <= h < 2^31, in units of 2^e */
+        below = ql_real_scale(
+                ql_real_from_u64((uint64_t)h.m + ((uint64_t)1 << -h.e)), h.e);
+    } else {
+        /* h < 1, in units of 2^-62 */
+        const int up = h.e + 62;
+        const uint64_t m =
+                up >= 0 ? (uint64_t)h.m << up : (uint64_t)(h.m >> -up);
+
+        below = ql_real_scale(ql_real_from_u64(m + ((uint64_t)1 << 62)), -62);
+    }
+    return ql_real_mul(h, ql_real_recip(below));
+}
+
+ql_real_t ql_mis_weight_of_ray(const ql_context_t *context,
+        const ql_path_ray_t *ray, const ql_blob_tri_t *tri, ql_uq30_t t)
+{
+    const ql_scene_t *scene = context->scene;
+    const ql_settings_t *s = context->settings;
+    const uint16_t index =
+            tri == NULL ? QL_LIGHT_SKY : (uint16_t)(tri - scene->triangles);
+    uint16_t light;
+    ql_real_t h;
+
+    if (ray->counts != QL_COUNTS_MIS || !ql_light_find(scene, index, &light)) {
+        return QL_REAL_ONE;
+    }
+    /* h = p / q: the lobe's density times the inverse of the emitter's */
+    h = ql_real_mul(
+            ray->pdf, ql_emit_inv_pdf(scene, ray->from, &ray->ray, tri, t));
+    h = ql_real_mul(h, QL_REAL_TWO_PI);
+    h = ql_real_mul(
+            h, ql_light_weight(scene, s->lights, s->light_samples, light));
+    return h.m == 0 ? QL_REAL_ONE : ql_mis_weight(h);
+}
+
+#endif
