@@ -209,6 +209,9 @@ say a_wrong_variable_is_one_line_that_names_the_right_ones $? \
 (cd "$tree" && "$make" "O=a b") >"$work/said" 2>&1
 [ $? -ne 0 ] && grep -q 'O=a b: use the path of a folder' "$work/said"
 say a_folder_with_a_blank_for_O_is_refused $?
+(cd "$tree" && "$make" -n O=. clean) >"$work/said" 2>&1
+[ $? -ne 0 ] && grep -q 'O=.: use a folder that make clean may' "$work/said"
+say the_tree_itself_for_O_is_refused $?
 (cd "$tree" && "$make" firmware "O=$out") >"$work/said" 2>&1
 [ $? -ne 0 ] && grep -q 'name a board: BOARD= one of' "$work/said"
 say a_firmware_without_a_board_asks_for_one $?

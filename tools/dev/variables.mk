@@ -12,6 +12,9 @@
 ifneq ($(or $(findstring $(space),$O),$(findstring ',$O)),)
 $(error O=$O: use the path of a folder without blanks)
 endif
+ifneq ($(wildcard $O/Makefile $O/.git),)
+$(error O=$O: use a folder that make clean may remove)
+endif
 
 boards := $(sort $(notdir $(patsubst %/,%,$(wildcard hal/boards/*/))))
 BOARDS ?= $(boards)
