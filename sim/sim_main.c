@@ -8,6 +8,7 @@
 #include "qlux.h"
 #include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
+#include "lib/render/rows.h"
 #include "sim/sim_render.h"
 
 #if QL_CFG_PRECISION == 0
@@ -99,13 +100,7 @@ static double mean_count(const sums_t *sums, const sums_range_t *rows)
 
 static void print_stats(const sim_stats_t *s)
 {
-    const double rays = (double)s->closest_rays + (double)s->shadow_rays;
-
-    printf("paths: %" PRIu64 "\n", s->paths);
-    printf("closest-rays: %" PRIu64 "\n", s->closest_rays);
-    printf("shadow-rays: %" PRIu64 "\n", s->shadow_rays);
-    printf("rays-per-path: %.3f\n",
-            s->paths != 0 ? rays / (double)s->paths : 0);
+    rows_print_stats(s->paths, s->closest_rays, s->shadow_rays);
     printf("saturated: %" PRIu64 "\n", s->saturated);
     printf("faint: %" PRIu64 "\n", s->faint);
     printf("seconds: %.3f\n", s->seconds);

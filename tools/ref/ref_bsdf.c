@@ -160,13 +160,13 @@ static ref_vec_t rounded_cosine(const ref_rounding_t *rounding,
 
 /* A direction whose density knows of no lobe but the diffuse one; *factor is
  * cos/pi over the density. */
-static bool draw_direction(const ref_bsdf_t *bsdf, ql_indirect_t density,
+static bool draw_direction(const ref_bsdf_t *bsdf, ql_density_t density,
         ql_uniform2_t u, ref_bsdf_sample_t *sample, double *factor)
 {
     const ref_surface_t *surface = bsdf->surface;
     const double u1 = ref_midpoint(u.u1), u2 = ref_midpoint(u.u2);
 
-    if (density == QL_INDIRECT_UNIFORM) {
+    if (density == QL_DENSITY_UNIFORM) {
         sample->direction =
                 ref_warp_about(bsdf->rounding, surface->shade, 1 - u1, u2);
         *factor = 2 * u1;
@@ -181,7 +181,7 @@ static bool draw_direction(const ref_bsdf_t *bsdf, ql_indirect_t density,
     return ref_dot(sample->direction, surface->n) > 0;
 }
 
-static bool sample_diffuse(const ref_bsdf_t *bsdf, ql_indirect_t density,
+static bool sample_diffuse(const ref_bsdf_t *bsdf, ql_density_t density,
         ql_uniform2_t u, ref_bsdf_sample_t *sample)
 {
     double factor;
@@ -195,7 +195,7 @@ static bool sample_diffuse(const ref_bsdf_t *bsdf, ql_indirect_t density,
 }
 
 /* Both lobes by such a direction. */
-static bool sample_both(const ref_bsdf_t *bsdf, ql_indirect_t density,
+static bool sample_both(const ref_bsdf_t *bsdf, ql_density_t density,
         ql_uniform2_t u, ref_bsdf_sample_t *sample)
 {
     double factor, lobe;
@@ -212,7 +212,7 @@ static bool sample_both(const ref_bsdf_t *bsdf, ql_indirect_t density,
     return true;
 }
 
-bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density,
+bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_density_t density,
         ref_lobes_t lobes, uint32_t pick, ql_uniform2_t u,
         ref_bsdf_sample_t *sample)
 {
@@ -236,7 +236,7 @@ bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density,
     if (delta) {
         return false;
     }
-    if (m->kind == QL_GLOSS_PHONG && density != QL_INDIRECT_BRDF) {
+    if (m->kind == QL_GLOSS_PHONG && density != QL_DENSITY_BRDF) {
         return sample_both(bsdf, density, u, sample);
     }
     if (m->kind == QL_GLOSS_PHONG && special) {

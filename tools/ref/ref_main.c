@@ -1,7 +1,6 @@
 /* ref_main.c - qlux-ref: a scene in double precision, as the core renders it */
 /* SPDX-License-Identifier: MIT */
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -127,13 +126,7 @@ static void write_display(const job_t *job, cli_out_t *out)
 
 static void print_stats(const ref_stats_t *s, double seconds)
 {
-    const double rays = (double)s->closest_rays + (double)s->shadow_rays;
-
-    printf("paths: %" PRIu64 "\n", s->paths);
-    printf("closest-rays: %" PRIu64 "\n", s->closest_rays);
-    printf("shadow-rays: %" PRIu64 "\n", s->shadow_rays);
-    printf("rays-per-path: %.3f\n",
-            s->paths != 0 ? rays / (double)s->paths : 0);
+    rows_print_stats(s->paths, s->closest_rays, s->shadow_rays);
     printf("seconds: %.3f\n", seconds);
     printf("precision: double\n");
 }

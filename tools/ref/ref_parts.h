@@ -4,6 +4,7 @@
 #ifndef REF_PARTS_H
 #define REF_PARTS_H
 
+#include "base/ql_density.h"
 #include "ref/ref.h"
 #include "sample/ql_sampler.h"
 
@@ -108,7 +109,7 @@ bool ref_bsdf_has_delta(const ref_bsdf_t *bsdf);
 bool ref_bsdf_has_spread(const ref_bsdf_t *bsdf);
 
 /* As ql_bsdf_sample(): same numbers, same lobes. */
-bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_indirect_t density,
+bool ref_bsdf_sample(const ref_bsdf_t *bsdf, ql_density_t density,
         ref_lobes_t lobes, uint32_t pick, ql_uniform2_t u,
         ref_bsdf_sample_t *sample);
 

@@ -226,7 +226,7 @@ static void direct_light(path_t *path, const vertex_t *v)
 typedef enum { TO_GO_ON, TO_LOOK } purpose_t;
 
 /* Draw a way from a vertex. */
-static bool draw(const path_t *path, const vertex_t *v, ql_indirect_t density,
+static bool draw(const path_t *path, const vertex_t *v, ql_density_t density,
         ref_lobes_t lobes, purpose_t purpose, way_t *way)
 {
     const bool look = purpose == TO_LOOK;
@@ -245,7 +245,7 @@ static bool draw(const path_t *path, const vertex_t *v, ql_indirect_t density,
     }
     way->delta = sample.delta;
     way->sight = SEES_ALL;
-    if (density == QL_INDIRECT_BRDF && !sample.delta &&
+    if (density == QL_DENSITY_BRDF && !sample.delta &&
             path->settings->direct == QL_DIRECT_MIS) {
         way->sight = SEES_A_SHARE;
         way->pdf = sample.pdf;
@@ -255,23 +255,22 @@ static bool draw(const path_t *path, const vertex_t *v, ql_indirect_t density,
 }
 
 /* Density by which a strategy looks for emitters. */
-static ql_indirect_t looks_by(const ql_settings_t *s)
+static ql_density_t looks_by(const ql_settings_t *s)
 {
-    return s->direct == QL_DIRECT_HEMISPHERE ? QL_INDIRECT_UNIFORM
-           : s->direct == QL_DIRECT_COSINE   ? QL_INDIRECT_COSINE
-           : s->direct == QL_DIRECT_MIS      ? QL_INDIRECT_BRDF
-                                             : QL_INDIRECT_NONE;
+    return s->direct == QL_DIRECT_HEMISPHERE ? QL_DENSITY_UNIFORM
+           : s->direct == QL_DIRECT_COSINE   ? QL_DENSITY_COSINE
+           : s->direct == QL_DIRECT_MIS      ? QL_DENSITY_BRDF
+                                             : QL_DENSITY_NONE;
 }
 
-static bool same_density(
-        const ref_bsdf_t *bsdf, ql_indirect_t a, ql_indirect_t b)
+static bool same_density(const ref_bsdf_t *bsdf, ql_density_t a, ql_density_t b)
 {
     if (!ref_bsdf_has_spread(bsdf)) {
         return true;
     }
     if (bsdf->material->kind == 0) {
-        a = a == QL_INDIRECT_BRDF ? QL_INDIRECT_COSINE : a;
-        b = b == QL_INDIRECT_BRDF ? QL_INDIRECT_COSINE : b;
+        a = a == QL_DENSITY_BRDF ? QL_DENSITY_COSINE : a;
+        b = b == QL_DENSITY_BRDF ? QL_DENSITY_COSINE : b;
     }
     return a == b;
 }
@@ -296,24 +295,24 @@ static bool survives(const path_t *path, const vertex_t *v, way_t *way)
 static bool go_on(path_t *path, const vertex_t *v, state_t *state, way_t *way)
 {
     const ql_settings_t *s = path->settings;
-    const ql_indirect_t look = looks_by(s);
+    const ql_density_t look = looks_by(s);
     const bool mirror = ref_bsdf_has_delta(&v->bsdf) &&
                         (s->direct != QL_DIRECT_NONE || state->seen);
-    ql_indirect_t density = state->bounce < s->bounces
-                                    ? (ql_indirect_t)s->indirect
-                                    : QL_INDIRECT_NONE;
+    ql_density_t density = state->bounce < s->bounces
+                                   ? (ql_density_t)s->indirect
+                                   : QL_DENSITY_NONE;
     bool apart;
 
-    if (density == QL_INDIRECT_NONE) {
+    if (density == QL_DENSITY_NONE) {
         const bool spread =
-                look != QL_INDIRECT_NONE && ref_bsdf_has_spread(&v->bsdf);
+                look != QL_DENSITY_NONE && ref_bsdf_has_spread(&v->bsdf);
 
         state->last = true;
         return (spread || mirror) &&
                draw(path, v, look, spread ? REF_LOBES_ALL : REF_LOBES_DELTA,
                        TO_GO_ON, way);
     }
-    apart = look != QL_INDIRECT_NONE && !same_density(&v->bsdf, look, density);
+    apart = look != QL_DENSITY_NONE && !same_density(&v->bsdf, look, density);
     if (apart) {
         ref_hit_t hit;
         way_t around;
@@ -321,13 +320,13 @@ static bool go_on(path_t *path, const vertex_t *v, state_t *state, way_t *way)
         if (draw(path, v, look, REF_LOBES_ALL, TO_LOOK, &around)) {
             (void)follow(path, &around, &hit);
         }
-    } else if (look != QL_INDIRECT_NONE) {
+    } else if (look != QL_DENSITY_NONE) {
         density = look;
     }
     if (!draw(path, v, density, REF_LOBES_ALL, TO_GO_ON, way)) {
         return false;
     }
-    if (apart || (way->delta ? !mirror : look == QL_INDIRECT_NONE)) {
+    if (apart || (way->delta ? !mirror : look == QL_DENSITY_NONE)) {
         way->sight = SEES_NOTHING;
     }
     state->seen = state->seen && way->delta;

@@ -5,22 +5,8 @@
 
 #include <stdlib.h>
 
+#include "lib/math/remainder.h"
 #include "lib/program/cli.h"
-
-typedef struct {
-    uint64_t rest;
-    uint32_t index;
-} remainder_t;
-
-static int compare_remainders(const void *a, const void *b)
-{
-    const remainder_t *x = a, *y = b;
-
-    if (x->rest != y->rest) {
-        return x->rest > y->rest ? -1 : 1;
-    }
-    return x->index < y->index ? -1 : 1;
-}
 
 /* Scale weights to 64 bits, none to 0; return their sum, below 2^64. */
 static uint64_t scale_weights(
@@ -67,7 +53,7 @@ void cdf_shares(uint64_t *shares, const u128_t *weights, uint32_t count)
         given += shares[i];
         largest = shares[i] > shares[largest] ? i : largest;
     }
-    qsort(rests, count, sizeof *rests, compare_remainders);
+    qsort(rests, count, sizeof *rests, remainder_compare);
     /* each share lost less than 1, so fewer than count are left to give */
     for (uint32_t i = 0; i < count && given < whole; i++, given++) {
         shares[rests[i].index]++;

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/ql_base.h"
+#include "lib/math/remainder.h"
 #include "sample/lecture/ql_alias.h"
 #include "sample/ql_table.h"
 
@@ -52,21 +53,10 @@ static table_error_t check_weights(
 }
 
 typedef struct {
-    uint64_t weight; /* < 2^46 */
-    uint64_t rest;   /* of the division by the total */
-    uint32_t index;
+    remainder_t left; /* of the division by the total */
+    uint64_t weight;  /* < 2^46 */
     uint32_t share;
 } part_t;
-
-static int compare_rests(const void *a, const void *b)
-{
-    const part_t *x = a, *y = b;
-
-    if (x->rest != y->rest) {
-        return x->rest > y->rest ? -1 : 1;
-    }
-    return x->index < y->index ? -1 : 1;
-}
 
 /* floor(part->weight left / total) for weight <= total < 2^62, and what is
  * left over: long division, one bit of left at a time. */
@@ -83,7 +73,7 @@ static void divide(part_t *part, uint32_t left, uint64_t total)
             share++;
         }
     }
-    part->rest = rest;
+    part->left.rest = rest;
     part->share = share;
 }
 
@@ -104,7 +94,7 @@ static void share_out(
         for (uint32_t i = 0; i < n; i++) {
             divide(&parts[i], due, total);
             if (parts[i].share == 0) {
-                shares[parts[i].index] = 1;
+                shares[parts[i].left.index] = 1;
                 left--;
                 again = true;
             } else {
@@ -114,13 +104,13 @@ static void share_out(
         n = kept;
     }
     for (uint32_t i = 0; i < n; i++) {
-        shares[parts[i].index] = parts[i].share;
+        shares[parts[i].left.index] = parts[i].share;
         left -= parts[i].share;
     }
     /* each lost less than 1, so fewer than n are left */
-    qsort(parts, n, sizeof *parts, compare_rests);
+    qsort(parts, n, sizeof *parts, remainder_compare);
     for (uint32_t i = 0; i < left; i++) {
-        shares[parts[i].index]++;
+        shares[parts[i].left.index]++;
     }
 }
 
@@ -150,7 +140,7 @@ table_error_t table_shares(
         if (weights[i] > 0) {
             /* may be 0: share_out() raises it */
             parts[n].weight = (uint64_t)ldexp(weights[i], WEIGHT_BITS - e);
-            parts[n].index = i;
+            parts[n].left.index = i;
             n++;
         }
     }

@@ -3,6 +3,7 @@
 
 #include "lib/render/rows.h"
 
+#include <inttypes.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,4 +112,15 @@ bool rows_render(const rows_t *rows)
     run_threads(&shared, rows->threads < count ? rows->threads : count);
     pthread_mutex_destroy(&shared.lock);
     return shared.done == shared.total;
+}
+
+void rows_print_stats(
+        uint64_t paths, uint64_t closest_rays, uint64_t shadow_rays)
+{
+    const double rays = (double)closest_rays + (double)shadow_rays;
+
+    printf("paths: %" PRIu64 "\n", paths);
+    printf("closest-rays: %" PRIu64 "\n", closest_rays);
+    printf("shadow-rays: %" PRIu64 "\n", shadow_rays);
+    printf("rays-per-path: %.3f\n", paths != 0 ? rays / (double)paths : 0);
 }

@@ -54,4 +54,8 @@ typedef struct {
  */
 bool rows_render(const rows_t *rows);
 
+/* Print how many paths and rays that took, as --stats does. */
+void rows_print_stats(
+        uint64_t paths, uint64_t closest_rays, uint64_t shadow_rays);
+
 #endif
