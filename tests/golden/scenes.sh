@@ -29,8 +29,9 @@ for name in cornell square glossy sky lens smooth strategies; do
     compile "$name" "tests/scenes/$name.scene"
 done
 
-# corner NAME [MATERIAL [NORMAL [LAMP]]]: a floor, a wall of MATERIAL whose corners
-# have NORMAL, and a lamp of material LAMP; standard input is what else there is.
+# corner NAME [MATERIAL [NORMAL [LAMP]]]: a floor, a wall of MATERIAL whose
+# corners have NORMAL, and a lamp of material LAMP; standard input is what else
+# there is.
 corner()
 {
     n=${3:+//$3}

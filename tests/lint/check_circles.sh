@@ -25,8 +25,8 @@ suite=lint/circles
 # shellcheck disable=SC2046  # no name has a space
 includes=$(awk -f tests/lint/includes.awk $(git ls-files '*.c' '*.h'))
 
-# Arrows "FROM TO" that are part of a circle. What needs nothing, or is needed by
-# nothing, is taken away until none is left; then whoever reaches whom is known.
+# Arrows "FROM TO" that are part of a circle. What needs nothing, or is needed
+# by nothing, is taken away until none is left; then who reaches whom is known.
 circles()
 {
     sort -u | awk '

@@ -364,7 +364,8 @@ run()
     killers "$@" | each --base > "$work/base/failed"
     cat "$work/base/failed"
     [ -s "$work/base/failed" ] ||
-        say_as mutants/base tests_named_pass_without_a_fault ok "$(killers "$@" | wc -l) tests"
+        say_as mutants/base tests_named_pass_without_a_fault ok \
+            "$(killers "$@" | wc -l) tests"
     printf '%s\n' "$@" | each --one
     [ -f "$work/lives" ] || return
     make -s -k -j "$jobs" $(for build in $(sort "$work/lives" |

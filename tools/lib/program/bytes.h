@@ -42,12 +42,6 @@ static inline void bytes_put_le32(uint8_t *at, uint32_t value)
     bytes_put_le16(at + 2, (uint16_t)(value >> 16));
 }
 
-static inline void bytes_put_le64(uint8_t *at, uint64_t value)
-{
-    bytes_put_le32(at, (uint32_t)value);
-    bytes_put_le32(at + 4, (uint32_t)(value >> 32));
-}
-
 static inline void bytes_put_be32(uint8_t *at, uint32_t value)
 {
     at[0] = (uint8_t)(value >> 24);
