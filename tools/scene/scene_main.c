@@ -1,8 +1,7 @@
 /* scene_main.c - qlux-scene: compile scenes into blobs, show blobs */
 /* SPDX-License-Identifier: MIT */
 
-/* The folders beside this file, in the order in which a scene passes through
- * them; each includes only itself and those before it:
+/* The folders beside this file; each includes only itself and those before it:
  *
  *     world   a scene as its files describe it
  *     read    texts to a world
