@@ -32,7 +32,7 @@ well_formed() {
 
 names="naive-hemisphere uniform-hemisphere uniform-sphere cosine-hemisphere
     cosine-power uniform-cone uniform-disk uniform-triangle spherical-triangle
-    tent discrete alias table-1d table-2d table-3d"
+    tent cosine-textbook discrete alias table-1d table-2d table-3d"
 
 # Usage
 expect no_command_is_code_1 1 'missing COMMAND' "$warp"
@@ -74,8 +74,26 @@ done
 [ ! -e missing.txt ]
 say the_list_cites_the_compendium $?
 [ "$(grep -c 'per sr\|per area\|per entry\|per length\|per volume' list.txt)" \
-    -eq 15 ]
+    -eq 16 ]
 say every_density_has_its_measure $?
+
+# Every warp that the renderer calls is listed: qlux-warp calls it too.
+# In: sources. Comments are left out.
+unlisted() {
+    for name in $(cat "$@" | sed 's|/\*.*||; /^ \*/d' |
+        grep -oE 'ql_(warp_[a-z_0-9]+|table_sample|cdf_sample)\(' | sort -u); do
+        grep -qF "$name" "$root"/tools/warp/*.c || echo "$name"
+    done
+}
+sources=$(find "$root"/firmware/scene "$root"/firmware/material \
+    "$root"/firmware/light -name '*.[ch]')
+# shellcheck disable=SC2086  # names of files, without blanks
+[ "$(cat $sources | grep -c 'ql_warp_.*(')" -gt 5 ] &&
+    [ -z "$(unlisted $sources | tee unlisted.txt)" ]
+say "the_list_has_every_warp_of_the_renderer$(tr '\n' ' ' <unlisted.txt)" $?
+echo '    v = ql_warp_unheard_of(u1, u2);' >call.c
+[ "$(unlisted call.c)" = 'ql_warp_unheard_of(' ]
+say a_warp_that_is_not_listed_would_be_noticed $?
 
 # Plots: few samples, for they are tested, not looked at
 bad=

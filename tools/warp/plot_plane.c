@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "lib/program/cli.h"
-#include "warp/plot.h"
+#include "warp/plot_domain.h"
 
 /* Disk, triangle, tent. */
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "warp/plot.h"
+#include "warp/plot_domain.h"
 
 #define ELEVATION (22 * DEGREE) /* of the eye */
 #define DOME      118.0         /* radius of the hemisphere */
@@ -79,8 +79,8 @@ static double axial_density(const plot_t *p, double angle)
     if (!p->sphere && angle > PI / 2) {
         return 0;
     }
-    p->warp->invert(p->setup, x, c);
-    return c[0] > 1 + 1e-9 ? 0 : p->warp->density_at(p->setup, x);
+    warp_invert(p->warp, p->setup, x, c);
+    return c[0] > 1 + 1e-9 ? 0 : warp_density(p->warp, p->setup, x);
 }
 
 /* The density that the lobe's length LOBE stands for; the naive one has no
@@ -152,7 +152,7 @@ static double chart_angle(const plot_t *p)
         const double x[3] = {sin(a), 0, cos(a)};
         double c[2];
 
-        p->warp->invert(p->setup, x, c);
+        warp_invert(p->warp, p->setup, x, c);
         if (c[0] >= 0.999) {
             break;
         }
@@ -237,7 +237,7 @@ static double share_of(const plot_t *p, const double *x)
 {
     double c[3];
 
-    p->warp->invert(p->setup, x, c);
+    warp_invert(p->warp, p->setup, x, c);
     return c[0];
 }
 

@@ -48,9 +48,11 @@ static const program_t program = {.name = "qlux-warp",
                  "test [WARP] [-m M]\tsamples against densities, and what "
                  "tables cost",
         .sections = sections,
-        .notes = "naive-hemisphere must fail its test as uniform. GI is "
-                 "Dutre's Global Illumination Compendium (2003), by equation; "
-                 "sr is the steradian, solid angle's unit.",
+        .notes =
+                "naive-hemisphere must fail its test as uniform. A warp of the "
+                "lecture explains, and no renderer calls it. GI is "
+                "Dutre's Global Illumination Compendium (2003), by equation; "
+                "sr is the steradian, solid angle's unit.",
         .exits = "2 also if a warp does not fit its density",
         .example = "qlux-warp plot cosine-power -m 16 -o lobe.svg"};
 
@@ -87,8 +89,8 @@ static void list(const options_t *o)
     for (unsigned i = 0; warp_at(i) != NULL; i++) {
         const warp_t *w = warp_at(i);
 
-        printf("%-19s %-23s %-40s %s\n", w->name, w->domain, w->density,
-                w->source);
+        printf("%-19s %-23s %-40s %s%s\n", w->name, w->domain, w->density,
+                w->source, w->lecture ? " (lecture)" : "");
     }
 }
 

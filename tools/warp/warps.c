@@ -62,6 +62,14 @@ static void put_inverse(const double *x, double share, double *c)
 }
 
 /* Of such a density, from the means of z and of z z. */
+#define AXIAL_MOMENTS(z, zz)                                                   \
+    {                                                                          \
+        {0, 0, z},                                                             \
+        {                                                                      \
+            (1 - (zz)) / 2, (1 - (zz)) / 2, zz, 0, 0, 0                        \
+        }                                                                      \
+    }
+
 static void put_moments(warp_moments_t *m, double z, double zz)
 {
     memset(m, 0, sizeof *m);
@@ -70,132 +78,91 @@ static void put_moments(warp_moments_t *m, double z, double zz)
     m->second[2] = zz;
 }
 
-static void no_setup(warp_setup_t *s)
-{
-    (void)s;
-}
-
 /* Hemisphere, polar angle and azimuth evenly: not uniform. */
 
-static void naive_draw(
-        const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
+static void naive_draw(const uint32_t *u, warp_point_t *p)
 {
     const ql_vec3_t v = ql_warp_lecture_naive(u[0], u[1]);
 
-    (void)s;
     put_direction(p, v);
     p->inside = p->inside && v.z >= 0;
     p->density = warp_real(ql_warp_lecture_naive_pdf(v));
 }
 
-static void naive_invert(const warp_setup_t *s, const double *x, double *c)
+static void naive_invert(const double *x, double *c)
 {
-    (void)s;
     put_inverse(x, atan2(warp_sine(x), x[2]) / (PI / 2), c);
 }
 
-static double naive_density(const warp_setup_t *s, const double *x)
+static double naive_density(const double *x)
 {
-    (void)s;
     return 1 / (PI * PI * warp_sine(x));
-}
-
-static void naive_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    put_moments(m, 2 / PI, 0.5);
 }
 
 /* Hemisphere and sphere, uniform. */
 
-static void uniform_draw(
-        const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
+static void uniform_draw(const uint32_t *u, warp_point_t *p)
 {
     const ql_vec3_t v = ql_warp_hemisphere_uniform(u[0], u[1]);
 
-    (void)s;
     put_direction(p, v);
     p->inside = p->inside && v.z >= 0;
     p->density = ql_warp_hemisphere_uniform_pdf() / TWO_32;
 }
 
-static void uniform_invert(const warp_setup_t *s, const double *x, double *c)
+static void uniform_invert(const double *x, double *c)
 {
-    (void)s;
     put_inverse(x, warp_from_axis(x), c);
 }
 
-static double uniform_density(const warp_setup_t *s, const double *x)
+static void sphere_draw(const uint32_t *u, warp_point_t *p)
 {
-    (void)s;
-    (void)x;
-    return 1 / (2 * PI);
-}
-
-static void uniform_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    put_moments(m, 1 / 2.0, 1 / 3.0);
-}
-
-static void sphere_draw(
-        const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
-{
-    (void)s;
     put_direction(p, ql_warp_sphere(u[0], u[1]));
-    p->density = 1 / (4 * PI); /* the core has no use for it */
+    p->density = ql_warp_sphere_pdf() / TWO_32;
 }
 
-static void sphere_invert(const warp_setup_t *s, const double *x, double *c)
+static void sphere_invert(const double *x, double *c)
 {
-    (void)s;
     put_inverse(x, (1 - x[2]) / 2, c);
 }
 
-static double sphere_density(const warp_setup_t *s, const double *x)
+/* Cosine, twice, and powers of it. */
+
+/* About z, as the renderer draws it about any normal: a vector of length
+ * 2 cos(theta). Rounding moves directions next to the horizon, and the density
+ * is that of the product before it. */
+static void cosine_draw(const uint32_t *u, warp_point_t *p)
 {
-    (void)s;
-    (void)x;
-    return 1 / (4 * PI);
+    const ql_vec3_t n = {0, 0, QL_WARP_ONE_Q29};
+    const ql_vec3_t v = ql_warp_hemisphere_cosine(n, u[0], u[1]);
+    const double length = sqrt((double)ql_vec_dot(v, v));
+
+    p->x[0] = v.x / length;
+    p->x[1] = v.y / length;
+    p->x[2] = v.z / length;
+    p->inside = v.z > 0;
+    p->density = warp_real(ql_warp_hemisphere_cosine_pdf(ql_vec_dot(v, n)));
 }
 
-static void sphere_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    put_moments(m, 0, 1 / 3.0);
-}
-
-/* Cosine, and powers of it. */
-
-static void cosine_draw(
-        const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
+static void textbook_draw(const uint32_t *u, warp_point_t *p)
 {
     const ql_vec3_t v = ql_warp_lecture_cosine(u[0], u[1]);
 
-    (void)s;
     put_direction(p, v);
     p->inside = p->inside && v.z > 0;
     p->density = ql_warp_lecture_cosine_pdf(v.z) / TWO_32;
 }
 
-static void cosine_invert(const warp_setup_t *s, const double *x, double *c)
+static void cosine_invert(const double *x, double *c)
 {
     const double from_axis = warp_from_axis(x);
 
-    (void)s;
     put_inverse(x, from_axis * (2 - from_axis), c);
 }
 
-static double cosine_density(const warp_setup_t *s, const double *x)
+static double cosine_density(const double *x)
 {
-    (void)s;
     return x[2] / PI;
-}
-
-static void cosine_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    put_moments(m, 2 / 3.0, 1 / 2.0);
 }
 
 static void power_setup(warp_setup_t *s)
@@ -248,13 +215,15 @@ static double cone_width(const warp_setup_t *s)
     return 2 * half * half;
 }
 
+/* As that of a sphere, which is where the renderer's cones come from. */
 static void cone_setup(warp_setup_t *s)
 {
+    const double sine = sin(s->parameter * DEGREE);
     int exponent;
-    const double m = frexp(cone_width(s), &exponent);
+    const double m = frexp(sine * sine, &exponent);
+    const ql_real_t ratio2 = {(uint32_t)(m * TWO_32), (int16_t)(exponent - 32)};
 
-    s->s_max.m = (uint32_t)(m * TWO_32);
-    s->s_max.e = (int16_t)(exponent - 32);
+    s->s_max = ql_warp_cone_of_sphere(ratio2);
 }
 
 static void cone_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
@@ -287,11 +256,10 @@ static void cone_moments(const warp_setup_t *s, warp_moments_t *m)
 
 /* Disk, triangle, tent. */
 
-static void disk_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
+static void disk_draw(const uint32_t *u, warp_point_t *p)
 {
     ql_q29_t x, y;
 
-    (void)s;
     ql_warp_plane_disk(u[0], u[1], &x, &y);
     p->x[0] = x / ONE_Q29;
     p->x[1] = y / ONE_Q29;
@@ -299,70 +267,37 @@ static void disk_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
     p->density = ql_warp_plane_disk_pdf() / TWO_32;
 }
 
-static void disk_invert(const warp_setup_t *s, const double *x, double *c)
+static void disk_invert(const double *x, double *c)
 {
-    (void)s;
     put_inverse(x, x[0] * x[0] + x[1] * x[1], c);
 }
 
-static double disk_density(const warp_setup_t *s, const double *x)
-{
-    (void)s;
-    (void)x;
-    return 1 / PI;
-}
-
-static void disk_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    memset(m, 0, sizeof *m);
-    m->second[0] = m->second[1] = 0.25;
-}
-
-static void triangle_draw(
-        const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
+static void triangle_draw(const uint32_t *u, warp_point_t *p)
 {
     uint32_t b1, b2;
 
-    (void)s;
     ql_warp_plane_triangle(u[0], u[1], &b1, &b2);
     p->x[0] = ldexp(b1, -QL_BARY_BITS);
     p->x[1] = ldexp(b2, -QL_BARY_BITS);
     p->inside = p->x[0] + p->x[1] < 1;
-    p->density = 2; /* where the weights have an area of 1/2 */
+    /* where the weights have an area of 1/2 */
+    p->density = warp_real(
+            ql_warp_plane_triangle_pdf(ql_real_scale(QL_REAL_ONE, -1)));
 }
 
-static void triangle_invert(const warp_setup_t *s, const double *x, double *c)
+static void triangle_invert(const double *x, double *c)
 {
     const double rest = 1 - x[0];
 
-    (void)s;
     c[0] = 1 - rest * rest;
     c[1] = x[1] / rest;
 }
 
-static double triangle_density(const warp_setup_t *s, const double *x)
-{
-    (void)s;
-    (void)x;
-    return 2;
-}
-
-static void triangle_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    memset(m, 0, sizeof *m);
-    m->mean[0] = m->mean[1] = 1 / 3.0;
-    m->second[0] = m->second[1] = 1 / 6.0;
-    m->second[3] = 1 / 12.0;
-}
-
-static void tent_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
+static void tent_draw(const uint32_t *u, warp_point_t *p)
 {
     const int32_t x = ql_warp_lecture_tent(u[0], u[1]),
                   y = ql_warp_lecture_tent(u[2], u[3]);
 
-    (void)s;
     p->x[0] = x / TWO_31;
     p->x[1] = y / TWO_31;
     p->inside = true;
@@ -370,9 +305,8 @@ static void tent_draw(const warp_setup_t *s, const uint32_t *u, warp_point_t *p)
                  (ql_warp_lecture_tent_pdf(y) / TWO_31);
 }
 
-static void tent_invert(const warp_setup_t *s, const double *x, double *c)
+static void tent_invert(const double *x, double *c)
 {
-    (void)s;
     for (int d = 0; d < 2; d++) {
         const double rest = 1 - fabs(x[d]), tail = rest * rest / 2;
 
@@ -380,17 +314,9 @@ static void tent_invert(const warp_setup_t *s, const double *x, double *c)
     }
 }
 
-static double tent_density(const warp_setup_t *s, const double *x)
+static double tent_density(const double *x)
 {
-    (void)s;
     return (1 - fabs(x[0])) * (1 - fabs(x[1]));
-}
-
-static void tent_moments(const warp_setup_t *s, warp_moments_t *m)
-{
-    (void)s;
-    memset(m, 0, sizeof *m);
-    m->second[0] = m->second[1] = 1 / 6.0;
 }
 
 /* Spherical triangle. */
@@ -464,7 +390,7 @@ static void spherical_draw(
         p->inside = p->inside && volume(s->corners[i], s->corners[(i + 1) % 3],
                                          p->x) > -MARGIN;
     }
-    p->density = 1 / warp_real(s->spherical.solid_angle);
+    p->density = warp_real(ql_warp_spherical_pdf(&s->spherical));
 }
 
 static double spherical_whole(const warp_setup_t *s)
@@ -549,41 +475,144 @@ static void spherical_moments(const warp_setup_t *s, warp_moments_t *m)
 }
 
 static const warp_t warps[] = {
-        {"naive-hemisphere", "hemisphere",
-                "1/(pi^2 sin(theta)) per sr: not uniform", "-", WARP_AXIAL, 3,
-                2, false, NULL, 1, {0}, no_setup, naive_draw, naive_invert,
-                naive_density, naive_moments},
-        {"uniform-hemisphere", "hemisphere", "1/(2 pi) per sr", "GI (34)",
-                WARP_AXIAL, 3, 2, false, NULL, 1, {0}, no_setup, uniform_draw,
-                uniform_invert, uniform_density, uniform_moments},
-        {"uniform-sphere", "sphere", "1/(4 pi) per sr", "GI (33)", WARP_AXIAL,
-                3, 2, true, NULL, 1, {0}, no_setup, sphere_draw, sphere_invert,
-                sphere_density, sphere_moments},
-        {"cosine-hemisphere", "hemisphere", "cos(theta)/pi per sr", "GI (35)",
-                WARP_AXIAL, 3, 2, false, NULL, 1, {0}, no_setup, cosine_draw,
-                cosine_invert, cosine_density, cosine_moments},
-        {"cosine-power", "hemisphere", "(m+1)/(2 pi) cos^m(theta) per sr",
-                "GI (36)", WARP_AXIAL, 3, 2, false, "m = %g", 8,
-                {0, 1, 2, 2.5, 8, 16, 1000, 65535}, power_setup, power_draw,
-                power_invert, power_density, power_moments},
-        {"uniform-cone", "cone about z", "1/(2 pi (1 - cos(max))) per sr",
-                "GI (34)", WARP_AXIAL, 3, 2, false, "%g deg", 3, {30, 90, 0.1},
-                cone_setup, cone_draw, cone_invert, cone_density, cone_moments},
-        {"uniform-disk", "unit disk", "1/pi per area", "Shirley-Chiu 1997",
-                WARP_DISK, 2, 2, false, NULL, 1, {0}, no_setup, disk_draw,
-                disk_invert, disk_density, disk_moments},
-        {"uniform-triangle", "triangle", "1/area per area", "GI (18)",
-                WARP_TRIANGLE, 2, 2, true, NULL, 1, {0}, no_setup,
-                triangle_draw, triangle_invert, triangle_density,
-                triangle_moments},
-        {"spherical-triangle", "triangle of the sphere",
-                "1/(solid angle) per sr", "Arvo 1995", WARP_DIRECTION, 3, 2,
-                false, "radius %g deg", 3, {35, 60, 2}, spherical_setup,
-                spherical_draw, spherical_invert, spherical_density,
-                spherical_moments},
-        {"tent", "square [-1, 1]^2", "(1 - |x|)(1 - |y|) per area",
-                "sum of two uniforms", WARP_TENT, 2, 4, false, NULL, 1, {0},
-                no_setup, tent_draw, tent_invert, tent_density, tent_moments},
+        {.name = "naive-hemisphere",
+                .domain = "hemisphere",
+                .density = "1/(pi^2 sin(theta)) per sr: not uniform",
+                .source = "-",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .lecture = true,
+                .draw_plain = naive_draw,
+                .invert_plain = naive_invert,
+                .density_plain = naive_density,
+                .moments_const = AXIAL_MOMENTS(2 / PI, 1 / 2.0)},
+        {.name = "uniform-hemisphere",
+                .domain = "hemisphere",
+                .density = "1/(2 pi) per sr",
+                .source = "GI (34)",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .draw_plain = uniform_draw,
+                .invert_plain = uniform_invert,
+                .density_const = 1 / (2 * PI),
+                .moments_const = AXIAL_MOMENTS(1 / 2.0, 1 / 3.0)},
+        {.name = "uniform-sphere",
+                .domain = "sphere",
+                .density = "1/(4 pi) per sr",
+                .source = "GI (33)",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .draw_plain = sphere_draw,
+                .invert_plain = sphere_invert,
+                .density_const = 1 / (4 * PI),
+                .moments_const = AXIAL_MOMENTS(0, 1 / 3.0)},
+        {.name = "cosine-hemisphere",
+                .domain = "hemisphere",
+                .density = "cos(theta)/pi per sr",
+                .source = "GI (35)",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .density_floor = 0.05 / PI,
+                .draw_plain = cosine_draw,
+                .invert_plain = cosine_invert,
+                .density_plain = cosine_density,
+                .moments_const = AXIAL_MOMENTS(2 / 3.0, 1 / 2.0)},
+        {.name = "cosine-power",
+                .domain = "hemisphere",
+                .density = "(m+1)/(2 pi) cos^m(theta) per sr",
+                .source = "GI (36)",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .label = "m = %g",
+                .n_parameters = 8,
+                .parameters = {0, 1, 2, 2.5, 8, 16, 1000, 65535},
+                .setup = power_setup,
+                .draw = power_draw,
+                .invert = power_invert,
+                .density_at = power_density,
+                .moments = power_moments},
+        {.name = "uniform-cone",
+                .domain = "cone about z",
+                .density = "1/(2 pi (1 - cos(max))) per sr",
+                .source = "GI (34)",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .label = "%g deg",
+                .n_parameters = 3,
+                .parameters = {30, 90, 0.1},
+                .setup = cone_setup,
+                .draw = cone_draw,
+                .invert = cone_invert,
+                .density_at = cone_density,
+                .moments = cone_moments},
+        {.name = "uniform-disk",
+                .domain = "unit disk",
+                .density = "1/pi per area",
+                .source = "Shirley-Chiu 1997",
+                .kind = WARP_DISK,
+                .dims = 2,
+                .numbers = 2,
+                .draw_plain = disk_draw,
+                .invert_plain = disk_invert,
+                .density_const = 1 / PI,
+                .moments_const = {.second = {1 / 4.0, 1 / 4.0}}},
+        {.name = "uniform-triangle",
+                .domain = "triangle",
+                .density = "1/area per area",
+                .source = "GI (18)",
+                .kind = WARP_TRIANGLE,
+                .dims = 2,
+                .numbers = 2,
+                .draw_plain = triangle_draw,
+                .invert_plain = triangle_invert,
+                .density_const = 2,
+                .moments_const = {{1 / 3.0, 1 / 3.0, 0},
+                        {1 / 6.0, 1 / 6.0, 0, 1 / 12.0}}},
+        {.name = "spherical-triangle",
+                .domain = "triangle of the sphere",
+                .density = "1/(solid angle) per sr",
+                .source = "Arvo 1995",
+                .kind = WARP_DIRECTION,
+                .dims = 3,
+                .numbers = 2,
+                .label = "radius %g deg",
+                .n_parameters = 3,
+                .parameters = {35, 60, 2},
+                .setup = spherical_setup,
+                .draw = spherical_draw,
+                .invert = spherical_invert,
+                .density_at = spherical_density,
+                .moments = spherical_moments},
+        {.name = "tent",
+                .domain = "square [-1, 1]^2",
+                .density = "(1 - |x|)(1 - |y|) per area",
+                .source = "sum of two uniforms",
+                .kind = WARP_TENT,
+                .dims = 2,
+                .numbers = 4,
+                .lecture = true,
+                .draw_plain = tent_draw,
+                .invert_plain = tent_invert,
+                .density_plain = tent_density,
+                .moments_const = {.second = {1 / 6.0, 1 / 6.0}}},
+        {.name = "cosine-textbook",
+                .domain = "hemisphere",
+                .density = "cos(theta)/pi per sr",
+                .source = "GI (35)",
+                .kind = WARP_AXIAL,
+                .dims = 3,
+                .numbers = 2,
+                .lecture = true,
+                .draw_plain = textbook_draw,
+                .invert_plain = cosine_invert,
+                .density_plain = cosine_density,
+                .moments_const = AXIAL_MOMENTS(2 / 3.0, 1 / 2.0)},
 };
 
 const warp_t *warp_at(unsigned i)
@@ -608,7 +637,45 @@ void warp_begin(const warp_t *warp, warp_setup_t *s, double parameter)
 {
     memset(s, 0, sizeof *s);
     s->parameter = parameter;
-    warp->setup(s);
+    if (warp->setup != NULL) {
+        warp->setup(s);
+    }
+}
+
+void warp_draw(const warp_t *warp, const warp_setup_t *s, const uint32_t *u,
+        warp_point_t *p)
+{
+    if (warp->draw != NULL) {
+        warp->draw(s, u, p);
+    } else {
+        warp->draw_plain(u, p);
+    }
+}
+
+void warp_invert(
+        const warp_t *warp, const warp_setup_t *s, const double *x, double *c)
+{
+    if (warp->invert != NULL) {
+        warp->invert(s, x, c);
+    } else {
+        warp->invert_plain(x, c);
+    }
+}
+
+double warp_density(const warp_t *warp, const warp_setup_t *s, const double *x)
+{
+    return warp->density_at != NULL      ? warp->density_at(s, x)
+           : warp->density_plain != NULL ? warp->density_plain(x)
+                                         : warp->density_const;
+}
+
+void warp_moments(const warp_t *warp, const warp_setup_t *s, warp_moments_t *m)
+{
+    if (warp->moments != NULL) {
+        warp->moments(s, m);
+    } else {
+        *m = warp->moments_const;
+    }
 }
 
 void warp_numbers(

@@ -79,20 +79,29 @@ typedef struct {
     const char *density; /* with its measure */
     const char *source;
     warp_kind_t kind;
-    unsigned dims;    /* coordinates of a point */
-    unsigned numbers; /* uniform numbers a draw takes */
-    bool no_density;  /* the core has none of this warp */
+    unsigned dims;        /* coordinates of a point */
+    unsigned numbers;     /* uniform numbers a draw takes */
+    bool lecture;         /* it explains; the renderer does not use it */
+    double density_floor; /* errors of lower densities are parts of this */
 
-    /* parameters to test, and how one is called; the first is shown */
+    /* parameters to test, and how one is called; the first is shown. None, and
+     * no label, is one test of a warp without a parameter. */
     const char *label; /* printf format of a number, or NULL */
     unsigned n_parameters;
     double parameters[8];
 
+    /* A hook that needs no setup is a plain one, and what never changes a
+     * number; of each kind a warp has one. setup may be NULL. */
     void (*setup)(warp_setup_t *s);
     void (*draw)(const warp_setup_t *s, const uint32_t *u, warp_point_t *p);
+    void (*draw_plain)(const uint32_t *u, warp_point_t *p);
     void (*invert)(const warp_setup_t *s, const double *x, double *c);
+    void (*invert_plain)(const double *x, double *c);
     double (*density_at)(const warp_setup_t *s, const double *x);
+    double (*density_plain)(const double *x);
+    double density_const;
     void (*moments)(const warp_setup_t *s, warp_moments_t *m);
+    warp_moments_t moments_const;
 } warp_t;
 
 /* Those over cells; the last has no name. */
@@ -107,6 +116,15 @@ const warp_t *warp_find(const char *name);
 /* Prepare a warp for a parameter; cli_fail(CLI_INPUT) where it has none such.
  * A power counts as the core has it, a multiple of 2^-16. */
 void warp_begin(const warp_t *warp, warp_setup_t *s, double parameter);
+
+/* Draw a point by uniform numbers; take one back to such numbers; the density
+ * at one; the moments. Each by the hook that the warp has. */
+void warp_draw(const warp_t *warp, const warp_setup_t *s, const uint32_t *u,
+        warp_point_t *p);
+void warp_invert(
+        const warp_t *warp, const warp_setup_t *s, const double *x, double *c);
+double warp_density(const warp_t *warp, const warp_setup_t *s, const double *x);
+void warp_moments(const warp_t *warp, const warp_setup_t *s, warp_moments_t *m);
 
 /* A number of the core in double. */
 double warp_real(ql_real_t r);

@@ -1,8 +1,8 @@
-/* plot.h - what the pictures of all warps share */
+/* plot_page.h - the page of a picture: ink, dots, grid, histogram */
 /* SPDX-License-Identifier: MIT */
 
-#ifndef PLOT_H
-#define PLOT_H
+#ifndef PLOT_PAGE_H
+#define PLOT_PAGE_H
 
 #include "figure/figure.h"
 #include "warp/warps.h"
@@ -28,6 +28,13 @@
 enum {
     CURVE = 96, /* points of a curve */
     BARS = 18   /* of a histogram */
+};
+
+/* Samples of the square are coloured by the part of it that they are in. */
+enum {
+    CLASSES_1 = 4, /* of u1, by lightness */
+    CLASSES_2 = 8, /* of u2, by hue */
+    CLASSES = CLASSES_1 * CLASSES_2
 };
 
 extern const figure_style_t style_note;
@@ -106,15 +113,5 @@ bool plot_is_naive(const plot_t *p);
 
 /* The density of a warp that has the same everywhere. */
 double plot_even_density(const plot_t *p, double at);
-
-/* The domain of each kind of warp: plot_sphere.c, plot_plane.c. */
-void plot_axial(plot_t *p);
-void plot_direction(plot_t *p);
-void plot_disk(plot_t *p);
-void plot_triangle(plot_t *p);
-void plot_tent(plot_t *p);
-void plot_cells(plot_t *p);
-void plot_line_dots(plot_t *p);
-void plot_table(plot_t *p);
 
 #endif
