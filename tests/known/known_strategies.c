@@ -95,7 +95,7 @@ static void triangle_normal(double v[3][3], double n[3])
         e1[k] = v[1][k] - v[0][k];
         e2[k] = v[2][k] - v[0][k];
     }
-    cross(e1, e2, n);
+    cross3(e1, e2, n);
 }
 
 /* ---- What is expected: quadrature over the emitters' area ---------------- */
@@ -114,7 +114,7 @@ typedef struct {
 /* cos cos' / (pi r^2) times twice the area of the normal n. */
 static double geometry(const double w[3], const double n[3])
 {
-    const double r2 = dot(w, w), other = -dot(w, n);
+    const double r2 = dot3(w, w), other = -dot3(w, n);
 
     return w[2] > 0 && other > 0 ? w[2] * other / (PI * r2 * r2) : 0;
 }
@@ -187,10 +187,10 @@ static bool cell_at(double v[3][3], int side, int i, int j, cell_t *c)
         w[k] = v[0][k] + (v[1][k] - v[0][k]) * (i + third) / side +
                (v[2][k] - v[0][k]) * (j / 2 + third) / side;
     }
-    r = sqrt(dot(w, w));
+    r = sqrt(dot3(w, w));
     c->g = geometry(w, n) / 2;
     c->cosine = w[2] / r;
-    c->omega = -dot(w, n) / 2 / ((double)side * side * r * r * r);
+    c->omega = -dot3(w, n) / 2 / ((double)side * side * r * r * r);
     c->free = light.free == NULL || light.free(w) != 0;
     w[2] -= ULP;
     c->near = geometry(w, n) / 2;
@@ -237,7 +237,7 @@ static lambert_moments_t expected(int strategy, int side, double about)
         double n[3];
 
         triangle_normal(light.corner[i], n);
-        twice_area[i] = sqrt(dot(n, n));
+        twice_area[i] = sqrt(dot3(n, n));
         total += twice_area[i];
     }
     for (int i = 0; i < light.count; i++) {

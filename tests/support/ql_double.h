@@ -8,13 +8,13 @@
 
 #define PI 3.14159265358979323846
 
-static inline double dot(const double a[3], const double b[3])
+static inline double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* c = a x b; c is neither of them. */
-static inline void cross(const double a[3], const double b[3], double c[3])
+static inline void cross3(const double a[3], const double b[3], double c[3])
 {
     c[0] = a[1] * b[2] - a[2] * b[1];
     c[1] = a[2] * b[0] - a[0] * b[2];

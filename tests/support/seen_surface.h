@@ -11,12 +11,11 @@
 #include <string.h>
 
 #include "material/ql_bsdf.h"
+#include "support/ql_double.h"
 #include "support/ql_points.h"
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
-
-#define PI 3.14159265358979323846
 
 /* Of a direction rounded to QL_DIR_BITS, rad. */
 #define ROUNDED (sqrt(3) * ldexp(1, -QL_DIR_BITS))

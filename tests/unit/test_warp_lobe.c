@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "support/ql_double.h"
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
@@ -12,7 +13,6 @@
 #include "warp/ql_warp_hemisphere.h"
 #include "warp/ql_warp_lobe.h"
 
-#define PI           3.14159265358979323846
 #define LENGTH_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.4e-5 : 5e-9)
 #define NAIVE_ERROR  BY_TABLES(QL_CFG_PRECISION == 0 ? 4.5e-5 : 5e-9)
 #define FRAME_ERROR  6e-9

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "support/ql_double.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
 #include "warp/lecture/ql_warp_lecture.h"
@@ -12,8 +13,6 @@
 #include "warp/ql_warp_plane.h"
 #include "warp/ql_warp_sphere.h"
 #include "warp/ql_warp_spherical.h"
-
-#define PI 3.14159265358979323846
 
 enum { SIDE = 256, BINS = 16, PIECES = 256 };
 

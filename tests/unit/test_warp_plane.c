@@ -3,13 +3,13 @@
 
 #include <math.h>
 
+#include "support/ql_double.h"
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
 #include "warp/lecture/ql_warp_lecture.h"
 #include "warp/ql_warp_plane.h"
 
-#define PI           3.14159265358979323846
 #define RADIUS_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.1e-5 : 5.1e-8)
 
 enum { SAMPLES = 1 << 20, ROWS = 16, COLUMNS = 32, BINS = ROWS * COLUMNS };

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "support/ql_double.h"
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
@@ -12,7 +13,6 @@
 #include "warp/ql_warp_plane.h"
 #include "warp/ql_warp_sphere.h"
 
-#define PI           3.14159265358979323846
 #define LENGTH_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.3e-5 : 5e-8)
 #define HORIZON_LOG2 (QL_CFG_PRECISION == 0 ? -18 : -26)
 

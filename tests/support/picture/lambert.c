@@ -16,7 +16,7 @@ static lambert_polygon_t clip(const lambert_polygon_t *p, const double n[3])
     memset(&out, 0, sizeof out);
     for (int i = 0; i < p->count; i++) {
         const double *a = p->corner[i], *b = p->corner[(i + 1) % p->count];
-        const double above = dot(a, n), next = dot(b, n);
+        const double above = dot3(a, n), next = dot3(b, n);
 
         if (above >= 0) {
             memcpy(out.corner[out.count++], a, sizeof out.corner[0]);
@@ -41,10 +41,10 @@ double lambert_form_factor(const lambert_polygon_t *polygon, const double n[3])
         const double *a = p.corner[i], *b = p.corner[(i + 1) % p.count];
         double g[3], size;
 
-        cross(a, b, g);
-        size = sqrt(dot(g, g));
+        cross3(a, b, g);
+        size = sqrt(dot3(g, g));
         if (size > 0) {
-            sum += atan2(size, dot(a, b)) * dot(n, g) / size;
+            sum += atan2(size, dot3(a, b)) * dot3(n, g) / size;
         }
     }
     return sum / (2 * PI);
@@ -54,7 +54,7 @@ double lambert_form_factor(const lambert_polygon_t *polygon, const double n[3])
 static double geometry(
         const double w[3], const double n[3], const double normal[3])
 {
-    const double r2 = dot(w, w), cosine = dot(w, n), other = -dot(w, normal);
+    const double r2 = dot3(w, w), cosine = dot3(w, n), other = -dot3(w, normal);
 
     return cosine > 0 && other > 0 ? cosine * other / (PI * r2 * r2) : 0;
 }
@@ -86,7 +86,7 @@ lambert_moments_t lambert_area_sampling(const double corner[3],
 {
     double power[4] = {0, 0, 0, 0}, normal[3];
 
-    cross(a, b, normal); /* as long as the area */
+    cross3(a, b, normal); /* as long as the area */
     for (int i = 0; i < side; i++) {
         for (int j = 0; j < side; j++) {
             double w[3], x;
@@ -111,7 +111,7 @@ lambert_moments_t lambert_triangle_sampling(
         e1[k] = corner[1][k] - corner[0][k];
         e2[k] = corner[2][k] - corner[0][k];
     }
-    cross(e1, e2, normal);
+    cross3(e1, e2, normal);
     for (int k = 0; k < 3; k++) {
         normal[k] /= 2; /* as long as the area */
     }
