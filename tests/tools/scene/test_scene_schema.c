@@ -6,6 +6,7 @@
 #include "lib/program/cli.h"
 #include "scene/blob/dump_blob.h"
 #include "scene/blob/parse_dump.h"
+#include "support/picture/picture.h"
 #include "tools/scene/scene_worlds.h"
 
 /* ---- rows against structs ---- */
@@ -156,7 +157,7 @@ static void check_equal(const model_t *a, const model_t *b)
 
 TEST(any_numbers_of_any_table_come_back_from_a_dump)
 {
-    static const char path[] = "build/test/test_scene_schema.txt";
+    const char *path = picture_built("test/test_scene_schema.txt");
     const uint32_t all = (1u << 14) - 1;
 
     for (int round = 0; round < 100; round++) {
