@@ -12,10 +12,9 @@
  * Beside the diffuse lobe there is at most one other, which is drawn with a
  * fixed chance P; glass is alone. Weights and densities are those of the lobe
  * that was drawn, so the other lobe's cos^n is never needed. The lobes do not
- * know their chances: the functions here divide by them. A specular lobe is one
- * of a single direction: a mirror or glass. All directions lead away from the
- * surface; wo is that back along the ray that came, wi one that light comes
- * from. */
+ * know their chances: the functions here divide by them. A specular lobe, of a
+ * mirror or glass, has a single direction. All directions lead away from the
+ * surface: wo back along the ray that came, wi to where light comes from. */
 
 #ifndef QL_BSDF_H
 #define QL_BSDF_H
@@ -33,7 +32,7 @@ typedef struct {
     const ql_surface_t *surface;
     const ql_blob_material_t *material;
     const ql_blob_gloss_t *gloss; /* NULL: diffuse only */
-    /* if gloss is set: unit vectors in s2.29, and the side that was hit */
+    /* set only if gloss is; vectors are unit vectors in s2.29 */
     QL_IF_BUILT(QL_GLOSS, ql_vec3_t n;)        /* the shading normal */
     QL_IF_BUILT(QL_GLOSS, ql_vec3_t mirror;)   /* mirror direction, above */
     QL_IF_BUILT(QL_GLOSS, ql_vec3_t minus_wo;) /* of the ray that came */
@@ -54,13 +53,13 @@ typedef enum {
     QL_MIS_BALANCE /* yes, against ql_bsdf_sample() with BRDF */
 } ql_mis_t;
 
-/* Is it to be weighed? Only the strategies do. */
+/* Is light to be weighed? Only the strategies ask for that. */
 QL_INLINE bool ql_mis_is_balance(ql_mis_t mis)
 {
     return QL_CFG_STRATEGIES && mis == QL_MIS_BALANCE;
 }
 
-/* Is a density asked for? Only the strategies do. */
+/* Is a density asked for? Only the strategies ask for one. */
 QL_INLINE bool ql_bsdf_wants_pdf(const ql_real_t *pdf)
 {
     return QL_CFG_STRATEGIES && pdf != NULL;
@@ -82,13 +81,13 @@ void ql_bsdf_begin(ql_bsdf_t *bsdf, const ql_scene_t *scene,
         bool front, ql_vec3_t incoming);
 
 #if QL_GLOSS
-/* Has it a lobe that is not diffuse? */
+/* Does a surface have a lobe that is not diffuse? */
 QL_INLINE bool ql_bsdf_is_glossy(const ql_bsdf_t *bsdf)
 {
     return bsdf->gloss != NULL;
 }
 
-/* Which one? ql_gloss_kind_t; 0 for none. */
+/* The lobe that is not diffuse: ql_gloss_kind_t; 0 for none. */
 QL_INLINE unsigned ql_bsdf_kind(const ql_bsdf_t *bsdf)
 {
     return bsdf->gloss != NULL ? QL_LE16(bsdf->gloss->kind) : 0u;
@@ -108,13 +107,13 @@ QL_INLINE unsigned ql_bsdf_kind(const ql_bsdf_t *bsdf)
 #endif
 
 #if QL_SPECULAR
-/* Does it have a specular lobe (mirror, glass)? */
+/* Does a surface have a specular lobe (mirror, glass)? */
 QL_INLINE bool ql_bsdf_has_specular(const ql_bsdf_t *bsdf)
 {
     return ql_bsdf_is_glossy(bsdf) && ql_bsdf_kind(bsdf) != QL_GLOSS_PHONG;
 }
 
-/* Does it have any other lobe? */
+/* Does a surface have any other lobe? */
 QL_INLINE bool ql_bsdf_has_nonspecular(const ql_bsdf_t *bsdf)
 {
     return !ql_bsdf_has_specular(bsdf) ||
@@ -135,7 +134,7 @@ QL_INLINE bool ql_bsdf_has_nonspecular(const ql_bsdf_t *bsdf)
 }
 #endif
 
-/* Is it diffuse and flat, so that ql_diffuse_direction() is all it needs? */
+/* Is a surface diffuse and flat, so that ql_diffuse_direction() is enough? */
 QL_INLINE bool ql_bsdf_is_flat_diffuse(const ql_bsdf_t *bsdf)
 {
     return !ql_bsdf_is_glossy(bsdf) && !ql_surface_is_smooth(bsdf->surface);
@@ -161,14 +160,14 @@ QL_INLINE bool ql_bsdf_is_flat_diffuse(const ql_bsdf_t *bsdf)
  *              Ks (n + 2)/(n + 1) cos / P with pdf P (n + 1)/(2 pi) cos^n
  *     COSINE   Kd + Ks (n + 2)/2 cos^n
  *     UNIFORM  (Kd + Ks (n + 2)/2 cos^n) 2 cos
- * where cos^n is that of the angle to the mirror direction and P the chance of
- * the specular lobe. A mirror's lobe is drawn with its chance whatever the
- * density; COSINE and UNIFORM divide what is left by 1 - P.
+ * Here cos^n is of the angle to the mirror direction, and P is the chance of
+ * the lobe that is not diffuse. A mirror's lobe is drawn with its chance
+ * whatever the density; COSINE and UNIFORM divide what is left by 1 - P.
  *
- * Exact: the weight of a surface that is diffuse only is its albedo, e = 0,
- *        unless drawn UNIFORM; so is Ks of a mirror that is nothing else.
- * Error: weights relative, 2^-26; of draft's lobes 2^-14, from the lengths of
- *        unit vectors. Of glass: see ql_glass_sample().
+ * Exact: a surface that is diffuse only has its albedo as weight, e = 0, unless
+ *        the density is UNIFORM; a mirror that is nothing else has Ks.
+ * Error: of weights relative, 2^-26; of draft's lobes 2^-14, from the lengths
+ *        of unit vectors. For glass see ql_glass_sample().
  */
 bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, ql_uq32_t pick,
         ql_uniform2_t u, ql_bsdf_sample_t *sample, ql_real_t *pdf);

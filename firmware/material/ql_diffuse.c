@@ -17,11 +17,6 @@ ql_vec3_t ql_diffuse_direction(const ql_surface_t *surface, ql_uniform2_t u)
     return ql_shading_is_above(surface, wi) ? wi : ql_vec_to_dir(n);
 }
 
-ql_real_t ql_diffuse_pdf(ql_real_t cosine)
-{
-    return ql_real_mul_call(cosine, QL_REAL_INV_PI);
-}
-
 ql_vec3_t ql_diffuse_unit(const ql_surface_t *surface, ql_uniform2_t u)
 {
     const ql_vec3_t n = ql_shading_normal(surface);

@@ -26,7 +26,10 @@ ql_vec3_t ql_diffuse_direction(const ql_surface_t *surface, ql_uniform2_t u);
  *
  * Error: relative, 2^-30.
  */
-ql_real_t ql_diffuse_pdf(ql_real_t cosine);
+QL_INLINE ql_real_t ql_diffuse_pdf(ql_real_t cosine)
+{
+    return ql_real_mul_call(cosine, QL_REAL_INV_PI);
+}
 
 /* Draw a unit direction proportional to the cosine to the shading normal.
  *

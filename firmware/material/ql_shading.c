@@ -1,13 +1,7 @@
-/* ql_shading.c - unit shading normal, and the cosine to it */
+/* ql_shading.c - the cosine to the shading normal */
 /* SPDX-License-Identifier: MIT */
 
 #include "material/ql_shading.h"
-
-ql_vec3_t ql_shading_normal(const ql_surface_t *surface)
-{
-    return ql_surface_is_smooth(surface) ? ql_surface_shade(surface)
-                                         : ql_shading_flat_normal(surface);
-}
 
 ql_real_t ql_shading_cosine(const ql_surface_t *surface, ql_vec3_t w)
 {

@@ -36,7 +36,11 @@ QL_INLINE bool ql_shading_is_above(const ql_surface_t *surface, ql_vec3_t w)
  *   surface  -      from ql_surface_at()
  *   return   s2.29  its shade if it is smooth, else n / |n|
  */
-ql_vec3_t ql_shading_normal(const ql_surface_t *surface);
+QL_INLINE ql_vec3_t ql_shading_normal(const ql_surface_t *surface)
+{
+    return ql_surface_is_smooth(surface) ? ql_surface_shade(surface)
+                                         : ql_shading_flat_normal(surface);
+}
 
 /* Cosine between a direction and the shading normal.
  *
