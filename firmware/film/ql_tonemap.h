@@ -18,6 +18,6 @@
  * to the format's levels by an ordered dither whose mean is unbiased.
  */
 void ql_tonemap_pixel(uint8_t *pixels, ql_format_t format, uint16_t x,
-        uint16_t y, const uint32_t linear[3]);
+        uint16_t y, const ql_uq16_t linear[3]);
 
 #endif

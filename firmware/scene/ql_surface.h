@@ -6,6 +6,10 @@
 
 #include "math/vec/ql_vec.h"
 
+/* Steps of a position that bring a point to its side, at most; see
+ * ql_surface_at(). */
+#define QL_SIDE_STEPS_MAX 4
+
 /* A point on a surface, moved to the side it was seen from. The normal n
  * decides sides, exactly: of a triangle e1 x e2, of a sphere the vector between
  * centre and p in 1/256 grid units; turned to the side it was seen from. */

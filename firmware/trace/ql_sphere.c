@@ -18,6 +18,7 @@
 #include "trace/ql_sphere.h"
 
 #include "math/ql_real.h"
+#include "math/vec/ql_vec_unit.h"
 
 #if QL_CFG_SPHERES
 
@@ -157,6 +158,40 @@ QL_NOINLINE bool ql_sphere_blocks(
     }
     /* nearest to the centre somewhere between the ends */
     return way < 0 && way + size > 0 && discriminant(sphere, s, d, &unused);
+}
+
+ql_vec3_t ql_sphere_step(
+        const ql_blob_sphere_t *sphere, ql_vec3_t *p, bool outside)
+{
+    ql_vec3_t s = ql_sphere_offset(sphere, *p);
+
+    for (unsigned steps = 0; steps < QL_SIDE_STEPS_MAX; steps++) {
+        const int64_t side = ql_sphere_side(sphere, s);
+        const uint32_t ax = ql_abs32(s.x), ay = ql_abs32(s.y);
+        const uint32_t az = ql_abs32(s.z);
+
+        if (outside ? side > 0 : side < 0) {
+            break;
+        }
+        if (ax >= ay && ax >= az) {
+            p->x += (s.x < 0) == outside ? -1 : 1;
+        } else if (ay >= az) {
+            p->y += (s.y < 0) == outside ? -1 : 1;
+        } else {
+            p->z += (s.z < 0) == outside ? -1 : 1;
+        }
+        s = ql_sphere_offset(sphere, *p);
+    }
+    return s;
+}
+
+void ql_sphere_surface(
+        const ql_blob_sphere_t *sphere, bool outside, ql_surface_t *surface)
+{
+    const ql_vec3_t s = ql_sphere_step(sphere, &surface->p, outside);
+
+    surface->n = outside ? s : ql_vec_neg(s);
+    surface->inv_n = ql_vec_unit_pack_inv_n((uint64_t)ql_vec_dot(s, s));
 }
 
 #endif

@@ -13,6 +13,9 @@
 
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
+#include "scene/ql_surface.h"
+
+#if QL_CFG_SPHERES
 
 /* From the centre of a sphere to a position.
  *
@@ -64,5 +67,53 @@ int ql_sphere_hit(
  * too close to call misses.
  */
 bool ql_sphere_blocks(const ql_blob_sphere_t *sphere, const ql_ray_t *segment);
+
+/* Step a point along the dominant axis of its offset until it is strictly
+ * outside, or strictly inside; QL_SIDE_STEPS_MAX steps at most.
+ *
+ *   sphere   -    of the scene
+ *   p        pos  within an ulp or two of the sphere; stepped
+ *   outside  -    to which side
+ *   return   -    its offset there, as ql_sphere_offset() has it
+ */
+ql_vec3_t ql_sphere_step(
+        const ql_blob_sphere_t *sphere, ql_vec3_t *p, bool outside);
+
+/* Step the point of a surface off the sphere, and set its exact normal.
+ *
+ *   sphere   -  of the scene
+ *   outside  -  was it seen from outside?
+ *   surface  -  its p is where it was hit; p, n and inv_n are set
+ */
+void ql_sphere_surface(
+        const ql_blob_sphere_t *sphere, bool outside, ql_surface_t *surface);
+#else
+QL_INLINE ql_vec3_t ql_sphere_offset(
+        const ql_blob_sphere_t *sphere, ql_vec3_t p)
+{
+    (void)sphere;
+    return p;
+}
+
+QL_INLINE int64_t ql_sphere_side(
+        const ql_blob_sphere_t *sphere, ql_vec3_t offset)
+{
+    (void)sphere, (void)offset;
+    return 1;
+}
+
+QL_INLINE ql_vec3_t ql_sphere_step(
+        const ql_blob_sphere_t *sphere, ql_vec3_t *p, bool outside)
+{
+    (void)sphere, (void)outside;
+    return *p;
+}
+
+QL_INLINE void ql_sphere_surface(
+        const ql_blob_sphere_t *sphere, bool outside, ql_surface_t *surface)
+{
+    (void)sphere, (void)outside, (void)surface;
+}
+#endif
 
 #endif

@@ -30,8 +30,6 @@
 void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
         const ql_hit_t *hit, ql_surface_t *surface);
 
-#define QL_SIDE_STEPS_MAX 4
-
 /* Bring a point of a surface to its other side, for a ray that passes through.
  *
  *   scene    -    open
@@ -48,10 +46,7 @@ void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
 QL_INLINE void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         const ql_surface_t *surface, ql_vec3_t *p)
 {
-    (void)scene;
-    (void)tri_idx;
-    (void)surface;
-    (void)p;
+    (void)scene, (void)tri_idx, (void)surface, (void)p;
 }
 #endif
 
