@@ -88,15 +88,6 @@ static inline ql_uq32_t ql_real_log_decay_of_fraction(ql_uq32_t f)
     return a + ql_mulhi_u32(~a, b); /* < 2^31 + 2 */
 }
 
-/* y in [2^-6, 2^21] as whole and fraction. */
-static inline uint32_t ql_real_log_split(ql_real_t y, ql_uq32_t *fraction)
-{
-    const uint64_t fixed = (uint64_t)y.m << (y.e + 38); /* y 2^38, < 2^60 */
-
-    *fraction = (uint32_t)(fixed >> 6);
-    return (uint32_t)(fixed >> 38);
-}
-
 /* What a power of 1/2 is below 1.
  *
  *   y       real  in [0, 2^21]
@@ -107,8 +98,9 @@ static inline uint32_t ql_real_log_split(ql_real_t y, ql_uq32_t *fraction)
  */
 static inline ql_real_t ql_real_log_decay(ql_real_t y)
 {
-    ql_uq32_t f, s;
+    uint64_t fixed;
     uint32_t whole;
+    ql_uq32_t s;
 
     if (y.e < -37) { /* y < 2^-6: keeps the bits of a tiny y */
         const ql_real_t x = ql_real_mul(y, QL_REAL(QL_REAL_LOG_LN2, -32));
@@ -116,8 +108,10 @@ static inline ql_real_t ql_real_log_decay(ql_real_t y)
         return ql_real_mul(
                 x, QL_REAL(ql_real_log_decay_over_x(ql_real_to_uq32(x)), -32));
     }
-    whole = ql_real_log_split(y, &f);
-    s = whole < 32 ? ~(~ql_real_log_decay_of_fraction(f) >> whole)
+    fixed = (uint64_t)y.m << (y.e + 38); /* y 2^38, < 2^60 */
+    whole = (uint32_t)(fixed >> 38);
+    s = whole < 32 ? ~(~ql_real_log_decay_of_fraction((uint32_t)(fixed >> 6)) >>
+                             whole)
                    : 0xffffffffu;
     return ql_real_scale(ql_real_from_u64(s), -32);
 }
@@ -132,18 +126,21 @@ static inline ql_real_t ql_real_log_decay(ql_real_t y)
  */
 static inline ql_real_t ql_real_log_half_to_the(ql_real_t y)
 {
-    ql_uq32_t f = 0, m;
     uint32_t whole = 0;
+    ql_uq32_t m;
 
     if (y.m == 0) {
         return QL_REAL_ONE;
     }
     if (y.e >= -37) {
-        whole = ql_real_log_split(y, &f);
+        /* y 2^38, < 2^60 */
+        const uint64_t fixed = (uint64_t)y.m << (y.e + 38);
+
+        whole = (uint32_t)(fixed >> 38);
         if (whole >= QL_REAL_LOG_MAX) {
             return QL_REAL_ZERO;
         }
-        m = ~ql_real_log_decay_of_fraction(f);
+        m = ~ql_real_log_decay_of_fraction((uint32_t)(fixed >> 6));
     } else {
         m = ~ql_real_to_uq32(ql_real_log_decay(y));
     }

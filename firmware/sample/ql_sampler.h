@@ -8,8 +8,8 @@
 #ifndef QL_SAMPLER_H
 #define QL_SAMPLER_H
 
-#include "math/ql_fx.h"
 #include "base/ql_settings.h"
+#include "math/ql_fx.h"
 
 /* Pairs of dimensions. Those of bounce k are QL_DIM_BOUNCE(k) + the name, and
  * those of the next samples of emitters are QL_DIMS_A_SAMPLE apart (modulo
@@ -68,8 +68,8 @@ void ql_sampler_start(ql_sampler_t *sampler, uint32_t index);
  */
 ql_uniform2_t ql_sampler_2d(const ql_sampler_t *sampler, uint32_t dim);
 
-/* A number that differs from sample to sample and pixel to pixel, to be hashed
- * for decisions that no dimension is worth. */
+/* A number that differs from sample to sample and pixel to pixel, for decisions
+ * not worth a Sobol dimension: hash it. */
 QL_INLINE uint32_t ql_sampler_key(const ql_sampler_t *sampler)
 {
     return sampler->key + sampler->index;
