@@ -227,7 +227,7 @@ bad_scene a_second_sky_is_refused $a:2 "expected one 'sky'" \
 printf 'sky none.pfm\n' >in/a.scene
 expect a_missing_sky_is_exit_3_with_line 3 "$a:1: cannot read the sky" \
     "$scene" $a -o out.qlb
-cp "$scenes/sky.pfm" in/s.pfm
+cat "$scenes/sky.pfm" >in/s.pfm # writable, whatever the tree is
 bad_scene words_after_the_map_are_refused $a:1 "expected sky FILE.pfm [rotate" \
     'sky s.pfm turn 3\n'
 bad_scene rotate_needs_degrees $a:1 'expected degrees' 'sky s.pfm rotate\n'
