@@ -4,7 +4,7 @@
 #ifndef OPTIONS_HELP_H
 #define OPTIONS_HELP_H
 
-#include "lib/program/options.h"
+#include "lib/program/option_table.h"
 
 /* Print the help to stdout, no line over 79 columns.
  *
