@@ -292,6 +292,7 @@ same_sky a_stray_newline_after_the_map_is_fine \
 "$scene" --dump in/one.qlb >in/one.txt
 sed 's/ rotate .*/ rotate -90/' "$scenes/sky.scene" >in/r.scene
 cp "$scenes/sky.obj" "$scenes/sky.mtl" "$scenes/sky.pfm" in/
+chmod -R u+w in
 "$scene" in/r.scene -o in/one.qlb --quiet && "$scene" --dump in/one.qlb |
     grep -q '^sky 0x00000000 0x00000000 0x00000000  0xc0000000  32 16  0$'
 say a_map_turned_back_by_90_begins_at_three_quarters $?
