@@ -32,8 +32,11 @@ board_tags += $(if $(filter 1,$(EMULATED)),emulated)
 board_name := $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
     -,$(board_tags)))$(VARIANT)
 
-board_src := $(or $(FIRMWARE_SRC),$(sort $(wildcard firmware/*/*.c \
-    firmware/*/*/*.c))) \
+# Layers in their order: link-time optimisation inlines by the order of files,
+# and the Cornell box takes 200 bytes less on a Cortex-M0 than in order of names.
+layers := base math sample warp scene blob trace material light film render app
+board_src := $(or $(FIRMWARE_SRC),$(foreach layer,$(layers),$(sort $(wildcard \
+    firmware/$(layer)/*.c firmware/$(layer)/*/*.c)))) \
     $(sort $(filter-out hal/ql_main.c,$(wildcard hal/*.c))) $(BOARD_MAIN) \
     hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
 board_obj := $(patsubst %,$(board_name)/%.o,$(board_src))
