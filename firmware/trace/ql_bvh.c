@@ -85,16 +85,22 @@ QL_INLINE interval_t interval_of(ql_pos_t o, int32_t d, bool segment)
     return i;
 }
 
-/* The line tests' numbers; z is the dominant axis, x and y the others, given as
- * (origin, direction, byte offset). */
-QL_INLINE void probe_axes(probe_t *p, int32_t ox, int32_t dx, uint8_t kx,
-        int32_t oy, int32_t dy, uint8_t ky, int32_t oz, int32_t dz, uint8_t kz)
+/* A ray along one axis. */
+typedef struct {
+    int32_t o, d; /* origin and direction */
+    uint8_t k;    /* byte offset of the axis into a box */
+} axis_t;
+
+/* The line tests' numbers; z is the dominant axis, x and y the others. */
+QL_INLINE void probe_axes(probe_t *p, axis_t x, axis_t y, axis_t z)
 {
+    int32_t ox = x.o, oy = y.o, oz = z.o;
+    int32_t dx = x.d, dy = y.d, dz = z.d;
     const uint32_t az = ql_abs32(dz);
 
-    p->x.k = kx;
-    p->y.k = ky;
-    p->kz = kz;
+    p->x.k = x.k;
+    p->y.k = y.k;
+    p->kz = z.k;
     p->start = oz;
     p->size_z = az;
 #if QL_POS_BITS > 0
@@ -129,33 +135,20 @@ static QL_NOINLINE void probe_begin(
         probe_t *p, interval_t axes[3], const ql_ray_t *ray, bool segment)
 {
     const ql_vec3_t d = ray->direction, o = ray->origin;
+    const axis_t x = {o.x, d.x, 0}, y = {o.y, d.y, 2}, z = {o.z, d.z, 4};
     const uint32_t ax = ql_abs32(d.x), ay = ql_abs32(d.y), az = ql_abs32(d.z);
-#if QL_CFG_SMALL
-    const int32_t from[3] = {o.x, o.y, o.z}, way[3] = {d.x, d.y, d.z};
-    const uint8_t z = az >= ax && az >= ay ? 2 : ay >= ax ? 1 : 0;
-    const uint8_t x = z == 0 ? 1 : 0, y = z == 2 ? 1 : 2;
-
-    p->backward = 0;
-    for (unsigned k = 0; k < 3; k++) {
-        p->backward = (uint8_t)(p->backward | (way[k] < 0) << k);
-        axes[k] = interval_of(from[k], way[k], segment);
-    }
-    probe_axes(p, from[x], way[x], (uint8_t)(2 * x), from[y], way[y],
-            (uint8_t)(2 * y), from[z], way[z], (uint8_t)(2 * z));
-#else
 
     p->backward = (uint8_t)((d.x < 0) | (d.y < 0) << 1 | (d.z < 0) << 2);
     if (az >= ax && az >= ay) {
-        probe_axes(p, o.x, d.x, 0, o.y, d.y, 2, o.z, d.z, 4);
+        probe_axes(p, x, y, z);
     } else if (ay >= ax) {
-        probe_axes(p, o.x, d.x, 0, o.z, d.z, 4, o.y, d.y, 2);
+        probe_axes(p, x, z, y);
     } else {
-        probe_axes(p, o.y, d.y, 2, o.z, d.z, 4, o.x, d.x, 0);
+        probe_axes(p, y, z, x);
     }
     axes[0] = interval_of(o.x, d.x, segment);
     axes[1] = interval_of(o.y, d.y, segment);
     axes[2] = interval_of(o.z, d.z, segment);
-#endif
     p->z = axes[p->kz >> 1];
 }
 
