@@ -4,9 +4,9 @@
 #include "math/ql_real.h"
 
 /* Entry i of ql_lut_recip. */
+#if QL_CFG_SMALL
 static uint32_t recip_entry(uint32_t i)
 {
-#if QL_CFG_SMALL
     /* 2^25 / (2 i + 257), half up, as tools/lut/lut_main.c has it: 18 bits of a
      * division, of which the first 9 are 0 */
     const uint32_t m = (2 * i + 257u) << 17;
@@ -21,10 +21,13 @@ static uint32_t recip_entry(uint32_t i)
         rest <<= 1;
     }
     return (quotient + 1) >> 1;
-#else
-    return ql_lut_recip[i];
-#endif
 }
+#else
+static uint32_t recip_entry(uint32_t i)
+{
+    return ql_lut_recip[i];
+}
+#endif
 
 uint32_t ql_recip_m(uint32_t m)
 {

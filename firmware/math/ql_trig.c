@@ -7,6 +7,35 @@
 
 #define CELL_SHIFT (30 - QL_SIN_BITS) /* turn32 bits in one cell */
 
+/* Turn the sine and cosine of a table's angle by the rest, by Taylor's first
+ * order (draft) or second (fine). */
+QL_FAST_INLINE void refine_sincos(int32_t rest, int32_t *sine, int32_t *cosine)
+{
+    /* rest 2 pi / 2^32 rad, scaled by 2^36: |rest| <= 2^24, |delta| < pi 2^29.
+     * 2 pi 2^29 is QL_PI_M. */
+    const int32_t delta = ql_mulhi_su32(rest * 128, QL_PI_M);
+    const uint32_t adelta = ql_abs32(delta);
+    const int32_t s = *sine, c = *cosine;
+    int32_t middle_s = s, middle_c = c, ds, dc;
+
+    if (QL_CFG_PRECISION > 0) {
+        /* s + d (c - d s / 2), c - d (s + d c / 2): s1.30 times 2^36 is 2^66,
+         * the high word 2^34; >> 5 makes it s1.30 and halves it */
+        const int32_t half_s =
+                (int32_t)(ql_mulhi_u32((uint32_t)s, adelta) >> 5);
+        const int32_t half_c =
+                (int32_t)(ql_mulhi_u32((uint32_t)c, adelta) >> 5);
+
+        middle_c = delta < 0 ? c + half_s : c - half_s;
+        middle_s = delta < 0 ? s - half_c : s + half_c;
+    }
+    /* 2^34 to s1.30, to nearest */
+    dc = ql_asr32(ql_mulhi_su32(middle_c, adelta) + 8, 4);
+    ds = ql_asr32(ql_mulhi_su32(middle_s, adelta) + 8, 4);
+    *sine = delta < 0 ? s - dc : s + dc;
+    *cosine = delta < 0 ? c + ds : c - ds;
+}
+
 void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
 {
     /* Nearest table angle, and the rest: |rest| <= 2^(CELL_SHIFT - 1). */
@@ -14,36 +43,12 @@ void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
             (turn + ((uint32_t)1 << (CELL_SHIFT - 1))) >> CELL_SHIFT;
     const int32_t rest = ql_i32(turn - (near << CELL_SHIFT));
     const unsigned cell = near & (QL_SIN_CELLS - 1);
-    const int32_t s0 = ql_lut_sin[cell];
-    const int32_t c0 = ql_lut_sin[QL_SIN_CELLS - cell];
+    int32_t s = ql_lut_sin[cell];
+    int32_t c = ql_lut_sin[QL_SIN_CELLS - cell];
 
-    int32_t s = s0, c = c0;
-
-#if QL_CFG_TABLE_LERP
-    /* rest 2 pi / 2^32 rad, scaled by 2^36: |rest| <= 2^24, |delta| < pi 2^29.
-     * 2 pi 2^29 is QL_PI_M. */
-    const int32_t delta = ql_mulhi_su32(rest * 128, QL_PI_M);
-    const uint32_t adelta = ql_abs32(delta);
-    int32_t ds, dc;
-
-#if QL_CFG_PRECISION > 0
-    /* s + d (c - d s / 2), c - d (s + d c / 2): s1.30 times 2^36 is 2^66, the
-     * high word 2^34; >> 5 makes it s1.30 and halves it */
-    const int32_t half_s = (int32_t)(ql_mulhi_u32((uint32_t)s0, adelta) >> 5);
-    const int32_t half_c = (int32_t)(ql_mulhi_u32((uint32_t)c0, adelta) >> 5);
-    const int32_t cs = delta < 0 ? c0 + half_s : c0 - half_s;
-    const int32_t sc = delta < 0 ? s0 - half_c : s0 + half_c;
-#else
-    const int32_t cs = c0, sc = s0;
-#endif
-    /* 2^34 to s1.30, to nearest */
-    dc = ql_asr32(ql_mulhi_su32(cs, adelta) + 8, 4);
-    ds = ql_asr32(ql_mulhi_su32(sc, adelta) + 8, 4);
-    s = delta < 0 ? s0 - dc : s0 + dc;
-    c = delta < 0 ? c0 + ds : c0 - ds;
-#else
-    (void)rest;
-#endif
+    if (QL_CFG_TABLE_LERP) {
+        refine_sincos(rest, &s, &c);
+    }
 
     /* Quadrants: near counts cells of the whole turn. */
     switch (near >> QL_SIN_BITS & 3u) {

@@ -50,11 +50,14 @@ ql_uniform2_t ql_sampler_2d(const ql_sampler_t *sampler, uint32_t dim)
     return u;
 }
 
+#if QL_CFG_SMALL
 ql_uq32_t ql_sampler_1d(const ql_sampler_t *sampler, uint32_t dim)
 {
-#if QL_CFG_SMALL
     return ql_sampler_2d(sampler, dim).u1;
+}
 #else
+ql_uq32_t ql_sampler_1d(const ql_sampler_t *sampler, uint32_t dim)
+{
     const uint32_t key1 = ql_hash32(sampler->key + dim * GOLDEN);
 
     if (is_sobol(sampler)) {
@@ -65,5 +68,5 @@ ql_uq32_t ql_sampler_1d(const ql_sampler_t *sampler, uint32_t dim)
         return ql_reverse32(ql_owen_reversed(index, key1));
     }
     return ql_hash32(key1 + sampler->index);
-#endif
 }
+#endif

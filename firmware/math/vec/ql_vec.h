@@ -62,11 +62,8 @@ int64_t ql_vec_dot_call(ql_vec3_t a, ql_vec3_t b);
 QL_FAST_INLINE int64_t ql_vec_dot_normal_ptr(
         const ql_vec3_t *a, const ql_vec3_t *n)
 {
-#if QL_POS_BITS == 0
-    return ql_dot_s16_s32(a->x, a->y, a->z, n->x, n->y, n->z);
-#else
-    return ql_vec_dot(*a, *n); /* 24 + 31 + 2 bits */
-#endif
+    return QL_POS_BITS == 0 ? ql_dot_s16_s32(a->x, a->y, a->z, n->x, n->y, n->z)
+                            : ql_vec_dot(*a, *n); /* 24 + 31 + 2 bits */
 }
 
 QL_INLINE int64_t ql_vec_dot_normal(ql_vec3_t a, ql_vec3_t n)
@@ -81,12 +78,10 @@ ql_real_t ql_vec_square(ql_vec3_t v);
  * fits 32 bits, or 2^23 (fine). */
 QL_INLINE ql_real_t ql_vec_square_pos(ql_vec3_t v)
 {
-#if QL_POS_BITS == 0
-    return ql_real_from_u64((uint32_t)(v.x * v.x) + (uint32_t)(v.y * v.y) +
-                            (uint32_t)(v.z * v.z));
-#else
-    return ql_real_from_u64((uint64_t)ql_vec_dot(v, v));
-#endif
+    return ql_real_from_u64(QL_POS_BITS == 0 ? (uint32_t)(v.x * v.x) +
+                                                       (uint32_t)(v.y * v.y) +
+                                                       (uint32_t)(v.z * v.z)
+                                             : (uint64_t)ql_vec_dot(v, v));
 }
 
 #endif
