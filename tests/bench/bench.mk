@@ -97,8 +97,9 @@ bench-strategies: $O/$(scene).qlb
 
 ifneq ($(BOARD),)
 bench-board: $(board_name).elf
-	@timeout 120 $(BOARD_QEMU) -display none -monitor none -serial stdio \
-	    -icount shift=0 -semihosting-config enable=on,target=native \
+	@tools/dev/limit.sh --cpu 120 $(BOARD_QEMU) -display none \
+	    -monitor none -serial stdio -icount shift=0 \
+	    -semihosting-config enable=on,target=native \
 	    -kernel $< < /dev/null 2> $O/$(BOARD)/bench.log
 endif
 

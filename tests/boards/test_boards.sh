@@ -98,10 +98,11 @@ emulator() {
 ctrl_c() {
     choose "$1" SPP=256 EMULATED=1 "$build/$1/$SCENE-emulated.elf" || return
     # shellcheck disable=SC2046
-    { sleep 1; printf "\003"; } | timeout 60 $(emulator "$1") \
-        -display none -monitor none -serial stdio -icount shift=0 \
-        -semihosting-config enable=on,target=native \
-        -kernel "$build/$1/$SCENE-emulated.elf" >"$build/$1/stopped.stream"
+    { sleep 1; printf "\003"; } |
+        tools/dev/limit.sh --cpu 60 $(emulator "$1") -display none \
+            -monitor none -serial stdio -icount shift=0 \
+            -semihosting-config enable=on,target=native \
+            -kernel "$build/$1/$SCENE-emulated.elf" >"$build/$1/stopped.stream"
     ! "$build/qlux-recv" "$build/$1/stopped.stream" -o "$build/$1/stopped.ppm" \
         --quiet && grep -q "status -12: stopped by the user" "$log"
 }

@@ -30,7 +30,7 @@ emulator=
 trap '[ -z "$emulator" ] || kill "$emulator" 2>/dev/null; rm -rf "$dir"' EXIT
 mkfifo "$dir/serial" "$dir/monitor" || exit 3
 
-timeout "${TIMEOUT:-60}" "$@" -display none -icount shift=0 \
+tools/dev/limit.sh --cpu 60 "$@" -display none -icount shift=0 \
     -serial "file:$dir/serial" -monitor stdio -kernel "$elf" \
     <"$dir/monitor" >"$dir/log" 2>&1 &
 emulator=$!

@@ -17,8 +17,8 @@
 # Prints one claim a mutant; the last line is "N passed, N failed". First, a
 # mutant that changes nothing is refused, and every test named passes without a
 # fault.
-# Environment: CC (cc); LIMIT (120), seconds a test may take; a test that hangs
-# has failed.
+# Environment: CC (cc); LIMIT (120), seconds of processor time that a test may
+# take. A test that goes on, or waits for ever, has failed.
 #
 # Example: make test-mutants
 
@@ -175,10 +175,10 @@ passes()
     case $3 in
     unit/test_app) set -- "$1" "$2" "$3" "$built/cornell.qlb" ;;
     esac
-    timeout "$LIMIT" "$1/$3" ${4:+"$4"} > "$2" 2>&1
+    tools/dev/limit.sh --cpu "$LIMIT" "$1/$3" ${4:+"$4"} > "$2" 2>&1
     status=$?
     why=$(awk '$3 == "FAIL" { print $2; exit }' "$2")
-    [ $status = 124 ] && why="no end after $LIMIT s"
+    [ $status = 124 ] && why="no end: $(tail -n 1 "$2")"
     [ $status -gt 124 ] && why="died, status $status"
     [ $status = 0 ]
 }

@@ -7,7 +7,8 @@ usage() {
 usage: tools/dev/run_board.sh [--quiet] ELF OUT.ppm EMULATOR [ARGUMENT...]
 Start the emulator with the firmware, receive its picture from the serial port
 while it renders, print the board's counters, and exit with the firmware's
-status (0 done; 124 after TIMEOUT seconds, 120 if unset).
+status (0 done; 124 after TIMEOUT seconds of this PC's processor time, 120 if
+unset, or when the board sleeps for ever).
 
 One instruction takes one nanosecond of the board's time (-icount shift=0), so
 "instructions" is exact and the same on every PC.
@@ -44,8 +45,9 @@ trap 'rm -rf "$dir"' EXIT
 trap '[ -z "$emulator" ] || kill "$emulator" 2>/dev/null; exit 3' INT TERM
 mkfifo "$dir/serial" || exit 3
 
-timeout "${TIMEOUT:-120}" "$@" -display none -monitor none -serial stdio \
-    -icount shift=0 -semihosting-config enable=on,target=native \
+"$(dirname "$0")/limit.sh" --cpu "${TIMEOUT:-120}" "$@" \
+    -display none -monitor none -serial stdio -icount shift=0 \
+    -semihosting-config enable=on,target=native \
     -kernel "$elf" </dev/null >"$dir/serial" 2>"$dir/log" &
 emulator=$!
 "$recv" "$dir/serial" -o "$out" --stats $quiet >"$dir/stats"
