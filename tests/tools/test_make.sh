@@ -13,7 +13,8 @@ suite=tools/test_make
 . tests/support/claims.sh
 unset MAKEFLAGS MFLAGS MAKELEVEL BUILD WARN O V SCENE CC CFLAGS
 make=${MAKE:-make}
-work=$(mktemp -d) || exit 3
+# The other user need not get to the folder of the tree.
+work=$(TMPDIR=/tmp mktemp -d) || exit 3
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 tree="$work/a tree"
 out=$work/out
