@@ -5,7 +5,7 @@
 
 #if QL_CFG_SKY
 
-#include "light/ql_sky_map.h"
+#include "light/sky/ql_sky_map.h"
 #include "material/ql_diffuse.h"
 
 static void constant_radiance(const ql_scene_t *scene, ql_uq32_t emission[3])

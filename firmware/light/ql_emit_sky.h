@@ -7,7 +7,7 @@
 #ifndef QL_EMIT_SKY_H
 #define QL_EMIT_SKY_H
 
-#include "light/ql_emit.h"
+#include "light/ql_emit_parts.h"
 
 #if QL_CFG_SKY
 /* Radiance from a direction.

@@ -4,7 +4,7 @@
 #ifndef QL_EMIT_SPHERE_H
 #define QL_EMIT_SPHERE_H
 
-#include "light/ql_emit.h"
+#include "light/ql_emit_parts.h"
 
 #if QL_CFG_SPHERES
 /* Draw a direction towards a sphere.

@@ -4,7 +4,7 @@
 #ifndef QL_EMIT_TRIANGLE_H
 #define QL_EMIT_TRIANGLE_H
 
-#include "light/ql_emit.h"
+#include "light/ql_emit_parts.h"
 #include "trace/ql_surface_at.h"
 
 /* A point on an emitter. */

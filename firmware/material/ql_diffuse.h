@@ -4,7 +4,7 @@
 #ifndef QL_DIFFUSE_H
 #define QL_DIFFUSE_H
 
-#include "material/ql_bsdf.h"
+#include "material/ql_bsdf_parts.h"
 
 /* Draw a direction proportional to the cosine: all that a flat diffuse surface
  * needs, as the weight is its albedo.

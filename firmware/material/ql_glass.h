@@ -4,7 +4,7 @@
 #ifndef QL_GLASS_H
 #define QL_GLASS_H
 
-#include "material/ql_bsdf.h"
+#include "material/ql_bsdf_parts.h"
 
 /* Is the surface glass?
  *

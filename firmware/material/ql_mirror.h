@@ -4,7 +4,7 @@
 #ifndef QL_MIRROR_H
 #define QL_MIRROR_H
 
-#include "material/ql_bsdf.h"
+#include "material/ql_bsdf_parts.h"
 
 /* A side of a surface. */
 typedef enum {

@@ -9,7 +9,7 @@
 #ifndef QL_PHONG_H
 #define QL_PHONG_H
 
-#include "material/ql_bsdf.h"
+#include "material/ql_bsdf_parts.h"
 
 /* Does the surface have this lobe?
  *

@@ -8,7 +8,7 @@
 #ifndef QL_REAL_SMALL_H
 #define QL_REAL_SMALL_H
 
-#include "math/ql_real.h"
+#include "math/ql_real_type.h"
 
 QL_INLINE uint64_t ql_real_pack(uint32_t m, int16_t e)
 {

@@ -8,7 +8,7 @@
 #include "base/ql_settings.h"
 #include "film/ql_film.h"
 #include "material/ql_bsdf.h"
-#include "math/ql_rgb.h"
+#include "math/vec/ql_rgb.h"
 #include "render/ql_plan.h"
 #include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"

@@ -4,7 +4,7 @@
 #ifndef QL_ROULETTE_H
 #define QL_ROULETTE_H
 
-#include "math/ql_rgb.h"
+#include "math/vec/ql_rgb.h"
 #include "sample/ql_sampler.h"
 
 #if QL_CFG_STRATEGIES

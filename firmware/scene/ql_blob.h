@@ -237,4 +237,16 @@ QL_STATIC_ASSERT(sizeof(ql_blob_texel_t) == 4, ql_blob_texel_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_distribution_t) == 12, ql_blob_dist_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_lens_t) == 72, ql_blob_lens_size);
 
+/* A number as the blob has it: two words of s31.32, or a word of s1.30 with 16
+ * fraction bits more. */
+QL_INLINE int64_t ql_blob_wide(const uint32_t words[2])
+{
+    return ql_i64((uint64_t)QL_LE32(words[1]) << 32 | QL_LE32(words[0]));
+}
+
+QL_INLINE int64_t ql_blob_narrow(uint32_t word)
+{
+    return (int64_t)ql_i32(QL_LE32(word)) * 65536;
+}
+
 #endif

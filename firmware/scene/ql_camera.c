@@ -4,7 +4,6 @@
 #include "scene/ql_camera.h"
 
 #include "math/vec/ql_vec_unit.h"
-#include "scene/ql_lens.h"
 
 /* The box in s.16 grid units. */
 #define BOX_MAX_Q16 ((int64_t)QL_GRID_MAX << 16)
@@ -18,10 +17,10 @@ static void affine_of(
 {
     for (unsigned i = 0; i < QL_CAMERA_AFFINE; i++) {
         if (axis < 3) {
-            a[i] = ql_camera_wide(c->at[i][axis]);
+            a[i] = ql_blob_wide(c->at[i][axis]);
             continue;
         }
-        a[i] = ql_camera_narrow(c->towards[i][axis - 3]);
+        a[i] = ql_blob_narrow(c->towards[i][axis - 3]);
         for (unsigned n = down; n > 0; n--) {
             a[i] = ql_asr64(a[i], 1);
         }
@@ -83,6 +82,31 @@ static uint64_t direction_reach(
     return reach;
 }
 
+/* The lens of a camera: remembered if lenses are built in. */
+#if QL_CFG_LENS
+static void set_lens(ql_camera_t *camera, const ql_scene_t *scene, uint8_t down)
+{
+    camera->lens.lens = scene->lens;
+    camera->lens.down = down;
+}
+
+QL_INLINE const ql_lens_t *lens_of(const ql_camera_t *camera)
+{
+    return &camera->lens;
+}
+#else
+QL_INLINE void set_lens(
+        ql_camera_t *camera, const ql_scene_t *scene, uint8_t down)
+{
+    (void)camera, (void)scene, (void)down;
+}
+
+QL_INLINE const ql_lens_t *lens_of(const ql_camera_t *camera)
+{
+    return (void)camera, NULL;
+}
+#endif
+
 bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         uint16_t width, uint16_t height)
 {
@@ -108,7 +132,8 @@ bool ql_camera_init(ql_camera_t *camera, const ql_scene_t *scene,
         }
         axis_init(&camera->axes[k], a, width, height);
     }
-    ql_lens_init(camera, scene, (uint8_t)down); /* <= 15: reach < 2^61 + 2^48 */
+    /* down <= 15: reach < 2^61 + 2^48 */
+    set_lens(camera, scene, (uint8_t)down);
     return true;
 }
 
@@ -233,7 +258,7 @@ bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
         at[k] = pixel->corner[k] + part_of(camera->axes[k].right, right) +
                 part_of(camera->axes[k].down, below);
     }
-    ql_lens_move(camera, lens, at);
+    ql_lens_move(lens_of(camera), lens, at);
     for (unsigned k = 0; k < 3; k++) {
         /* ql_camera_init() keeps it at 2^30 or below */
         direction[k] = (int32_t)at[3 + k];

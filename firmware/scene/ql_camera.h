@@ -5,6 +5,7 @@
 #define QL_CAMERA_H
 
 #include "sample/ql_sampler.h"
+#include "scene/ql_lens.h"
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
 
@@ -20,8 +21,7 @@ typedef struct {
  * units, s31.32), then of its direction (s1.30 with 16 more fraction bits). */
 typedef struct {
     ql_camera_axis_t axes[6];
-    QL_IF_BUILT(QL_CFG_LENS, const ql_blob_lens_t *lens;) /* or NULL */
-    QL_IF_BUILT(QL_CFG_LENS, uint8_t down;) /* its d is 2^down times too long */
+    QL_IF_BUILT(QL_CFG_LENS, ql_lens_t lens;)
 } ql_camera_t;
 
 /* One pixel of a picture, at the precision of a ray. */
@@ -29,18 +29,6 @@ typedef struct {
     int64_t corner[6]; /* as the axes, with 16 fraction bits less */
     const ql_camera_t *camera;
 } ql_camera_pixel_t;
-
-/* A number as the blob has it: two words of s31.32, or a word of s1.30 with 16
- * fraction bits more. */
-QL_INLINE int64_t ql_camera_wide(const uint32_t words[2])
-{
-    return ql_i64((uint64_t)QL_LE32(words[1]) << 32 | QL_LE32(words[0]));
-}
-
-QL_INLINE int64_t ql_camera_narrow(uint32_t word)
-{
-    return (int64_t)ql_i32(QL_LE32(word)) * 65536;
-}
 
 /* Make a camera ready for a picture size.
  *

@@ -7,12 +7,6 @@
 
 #if QL_CFG_LENS
 
-void ql_lens_init(ql_camera_t *camera, const ql_scene_t *scene, uint8_t down)
-{
-    camera->lens = scene->lens;
-    camera->down = down;
-}
-
 /* Both halves, each below 2^62 in size, and what ql_warp_plane_disk() may err
  * by. */
 static uint64_t reach_of(int64_t first, int64_t second)
@@ -27,8 +21,8 @@ uint64_t ql_lens_origin_reach(const ql_scene_t *scene, unsigned axis)
     const ql_blob_lens_t *lens = scene->lens;
 
     return lens == NULL ? 0
-                        : reach_of(ql_camera_wide(lens->p[0][axis]),
-                                  ql_camera_wide(lens->p[1][axis]));
+                        : reach_of(ql_blob_wide(lens->p[0][axis]),
+                                  ql_blob_wide(lens->p[1][axis]));
 }
 
 uint64_t ql_lens_direction_reach(const ql_scene_t *scene, unsigned axis)
@@ -36,13 +30,13 @@ uint64_t ql_lens_direction_reach(const ql_scene_t *scene, unsigned axis)
     const ql_blob_lens_t *lens = scene->lens;
 
     return lens == NULL ? 0
-                        : reach_of(ql_camera_narrow(lens->d[0][axis]),
-                                  ql_camera_narrow(lens->d[1][axis]));
+                        : reach_of(ql_blob_narrow(lens->d[0][axis]),
+                                  ql_blob_narrow(lens->d[1][axis]));
 }
 
-void ql_lens_move(const ql_camera_t *camera, ql_uniform2_t u, int64_t at[6])
+void ql_lens_move(const ql_lens_t *of, ql_uniform2_t u, int64_t at[6])
 {
-    const ql_blob_lens_t *lens = camera->lens;
+    const ql_blob_lens_t *lens = of->lens;
     ql_q29_t a[2];
 
     if (lens == NULL) {
@@ -52,12 +46,12 @@ void ql_lens_move(const ql_camera_t *camera, ql_uniform2_t u, int64_t at[6])
     for (unsigned i = 0; i < 6; i++) {
         /* p in s31.16 = high 2^16 + low: products below 2^60 */
         const unsigned k = i >> 1;
-        const int64_t p = ql_asr64(ql_camera_wide(lens->p[i & 1u][k]), 16);
+        const int64_t p = ql_asr64(ql_blob_wide(lens->p[i & 1u][k]), 16);
         const int64_t high = ql_asr64(p, 16), low = p & 0xffff;
         const int64_t d = ql_i32(QL_LE32(lens->d[i & 1u][k]));
 
         at[k] += ql_asr64(high * a[i & 1u], 13) + ql_asr64(low * a[i & 1u], 29);
-        at[3 + k] += ql_asr64(d * a[i & 1u], 29u + camera->down);
+        at[3 + k] += ql_asr64(d * a[i & 1u], 29u + of->down);
     }
 }
 

@@ -9,17 +9,16 @@
 #ifndef QL_LENS_H
 #define QL_LENS_H
 
-#include "scene/ql_camera.h"
+#include "sample/ql_sampler.h"
+#include "scene/ql_scene.h"
+
+/* The lens of a camera. */
+typedef struct {
+    const ql_blob_lens_t *lens; /* NULL: a pinhole */
+    uint8_t down;               /* the camera's directions are over 2^down */
+} ql_lens_t;
 
 #if QL_CFG_LENS
-/* Remember a scene's lens.
- *
- *   camera  -  out: its lens
- *   scene   -  open
- *   down    -  0..15: the camera's directions are over 2^down
- */
-void ql_lens_init(ql_camera_t *camera, const ql_scene_t *scene, uint8_t down);
-
 /* How much a lens adds to an axis of the origin or of the direction at most,
  * what ql_warp_plane_disk() may err by included.
  *
@@ -35,21 +34,15 @@ uint64_t ql_lens_direction_reach(const ql_scene_t *scene, unsigned axis);
 
 /* Move a ray to a point of the lens.
  *
- *   camera  -     with its lens
+ *   of      -     the camera's lens
  *   u       uq32  where on the lens, by ql_warp_plane_disk()
  *   at      -     moved: x, y, z of the origin, s31.16, and of the direction,
  *                 s1.30
  *
  * Error: cut to 2^-15 grid units and 2^-29 of a direction.
  */
-void ql_lens_move(const ql_camera_t *camera, ql_uniform2_t u, int64_t at[6]);
+void ql_lens_move(const ql_lens_t *of, ql_uniform2_t u, int64_t at[6]);
 #else
-QL_INLINE void ql_lens_init(
-        ql_camera_t *camera, const ql_scene_t *scene, uint8_t down)
-{
-    (void)camera, (void)scene, (void)down;
-}
-
 QL_INLINE uint64_t ql_lens_origin_reach(const ql_scene_t *scene, unsigned axis)
 {
     return (void)scene, (void)axis, 0;
@@ -61,10 +54,9 @@ QL_INLINE uint64_t ql_lens_direction_reach(
     return (void)scene, (void)axis, 0;
 }
 
-QL_INLINE void ql_lens_move(
-        const ql_camera_t *camera, ql_uniform2_t u, int64_t at[6])
+QL_INLINE void ql_lens_move(const ql_lens_t *of, ql_uniform2_t u, int64_t at[6])
 {
-    (void)camera, (void)u, (void)at;
+    (void)of, (void)u, (void)at;
 }
 #endif
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "math/ql_rgb.h"
+#include "math/vec/ql_rgb.h"
 #include "support/ql_nasty.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"

@@ -2,14 +2,16 @@
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
+#include <string.h>
 
+#include "blob/ql_blob_open.h"
 #include "support/ql_stats.h"
 #include "support/ql_table_error.h"
 #include "support/ql_test.h"
 #include "sample/ql_table.h"
 #include "lib/math/build_table.h"
 #include "light/ql_emit_sky.h"
-#include "light/ql_sky_map.h"
+#include "light/sky/ql_sky_map.h"
 
 #if QL_CFG_SKY_MAP
 

@@ -8,7 +8,7 @@
 
 #include "support/picture/film_add.h"
 #include "math/vec/ql_frame.h"
-#include "math/ql_rgb.h"
+#include "math/vec/ql_rgb.h"
 #include "math/ql_trig.h"
 #include "math/vec/ql_vec_unit.h"
 #include "warp/ql_warp_sphere.h"

@@ -1,7 +1,7 @@
 /* ql_sky_map.c - a map of the sky: look a direction up, draw one */
 /* SPDX-License-Identifier: MIT */
 
-#include "light/ql_sky_map.h"
+#include "light/sky/ql_sky_map.h"
 
 #if QL_CFG_SKY_MAP
 

@@ -1,7 +1,7 @@
 /* ql_rgb.c - three channels with one exponent: scale, add */
 /* SPDX-License-Identifier: MIT */
 
-#include "math/ql_rgb.h"
+#include "math/vec/ql_rgb.h"
 
 /* Largest channel in [2^31, 2^32), or all zero. Exact. */
 static void normalise(ql_rgb_t *a)
