@@ -2,7 +2,9 @@
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
+#include <string.h>
 
+#include "blob/ql_blob_open.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
 #include "support/picture/lamps.h"
