@@ -40,15 +40,13 @@ static void add_channel(uint64_t *sum, uint32_t value, uint32_t m, int32_t down,
 {
     uint64_t add = 0;
 
-#if !QL_CFG_SMALL
     /* Most contributions are below 2^31: the product's high word decides. */
-    if (down > 32 && down < 64) {
+    if (!QL_CFG_SMALL && down > 32 && down < 64) {
         const uint32_t twice = ql_mulhi_u32(value, m) >> (down - 33);
 
         add = (twice >> 1) + (twice & 1u);
         add = twice >> 1 < QL_FAINT ? 0 : add;
     }
-#endif
     if (add == 0) {
         add = rounded(value, m, down, key, diag);
     }

@@ -31,28 +31,32 @@ static uint32_t srgb_curve(ql_uq16_t linear)
 }
 
 /* Bayer's 8x8 matrix, 0..63, by interleaving the bits of x ^ y and y */
+#if QL_CFG_SMALL
 static uint32_t bayer(uint16_t x, uint16_t y)
 {
     const uint32_t a = (uint32_t)x ^ y, b = y;
-
-#if QL_CFG_SMALL
     uint32_t t = 0;
 
     for (unsigned i = 0; i < 3; i++) {
         t = t << 2 | (a >> i & 1u) << 1 | (b >> i & 1u);
     }
     return t;
+}
 #else
+static uint32_t bayer(uint16_t x, uint16_t y)
+{
+    const uint32_t a = (uint32_t)x ^ y, b = y;
+
     return (a & 1u) << 5 | (b & 1u) << 4 | (a & 2u) << 2 | (b & 2u) << 1 |
            (a & 4u) >> 1 | (b & 4u) >> 2;
-#endif
 }
+#endif
 
-/* Formats built in; the preprocessor knows no enumerators. */
-#define RGB888 (QL_CFG_FORMATS & 1)
-#define RGB565 (QL_CFG_FORMATS & 6)
-#define GRAY   (QL_CFG_FORMATS & 24)
-#define GRAY4  (QL_CFG_FORMATS & 16)
+/* Formats built in; what only others need is never called, and not linked. */
+#define RGB888 ((QL_CFG_FORMATS & 1) != 0)
+#define RGB565 ((QL_CFG_FORMATS & 6) != 0)
+#define GRAY   ((QL_CFG_FORMATS & 24) != 0)
+#define GRAY4  ((QL_CFG_FORMATS & 16) != 0)
 
 /* As dither() to levels 0..255: the same number without a division. */
 static uint8_t dither_byte(uint32_t value, uint32_t threshold)
@@ -60,16 +64,13 @@ static uint8_t dither_byte(uint32_t value, uint32_t threshold)
     return (uint8_t)((value + 2u * (2u * threshold + 1u)) >> 8);
 }
 
-#if RGB565 || GRAY4
 /* Round a display value to levels 0..top. value top <= 65280 * 255 < 2^24; the
  * threshold (2 t + 1) / 128 of a level is (2 t + 1) 510 of 65280. */
 static uint32_t dither(uint32_t value, uint32_t top, uint32_t threshold)
 {
     return (value * top + (2u * threshold + 1u) * 510u) / WHITE_UQ8;
 }
-#endif
 
-#if GRAY
 static uint32_t luma(const ql_uq16_t linear[3])
 {
     /* Rec. 709 weights as u0.16; they add up to 1. Each channel is cut to
@@ -84,9 +85,7 @@ static uint32_t luma(const ql_uq16_t linear[3])
     }
     return sum >> 16;
 }
-#endif
 
-#if RGB565
 static void put_rgb565(uint8_t *pixels, uint16_t x, const uint32_t value[3],
         uint32_t threshold, bool low_first)
 {
@@ -98,16 +97,13 @@ static void put_rgb565(uint8_t *pixels, uint16_t x, const uint32_t value[3],
     p[low_first ? 0 : 1] = (uint8_t)(packed & 0xffu);
     p[low_first ? 1 : 0] = (uint8_t)(packed >> 8);
 }
-#endif
 
-#if GRAY4
 static void put_gray4(uint8_t *pixels, uint16_t x, uint32_t level)
 {
     uint8_t *p = pixels + x / 2u;
 
     *p = (uint8_t)(x & 1u ? (*p & 0xf0u) | level : (*p & 0x0fu) | level << 4);
 }
-#endif
 
 void ql_tonemap_pixel(uint8_t *pixels, ql_format_t format, uint16_t x,
         uint16_t y, const ql_uq16_t linear[3])
@@ -116,31 +112,22 @@ void ql_tonemap_pixel(uint8_t *pixels, ql_format_t format, uint16_t x,
     uint32_t value[3];
 
     QL_ASSERT(QL_CFG_FORMATS >> format & 1);
-#if GRAY
-    if (format >= QL_FORMAT_GRAY8) {
+    if (GRAY && format >= QL_FORMAT_GRAY8) {
         value[0] = srgb_curve(luma(linear));
-#if GRAY4
-        if (format == QL_FORMAT_GRAY4) {
+        if (GRAY4 && format == QL_FORMAT_GRAY4) {
             put_gray4(pixels, x, dither(value[0], 15, threshold));
-            return;
+        } else {
+            pixels[x] = dither_byte(value[0], threshold);
         }
-#endif
-        pixels[x] = dither_byte(value[0], threshold);
         return;
     }
-#endif
-#if RGB888 || RGB565
-    for (unsigned i = 0; i < 3; i++) {
+    for (unsigned i = 0; i < 3 && (RGB888 || RGB565); i++) {
         value[i] = srgb_curve(linear[i]);
         if (RGB888 && (!RGB565 || format == QL_FORMAT_RGB888)) {
             pixels[3u * (size_t)x + i] = dither_byte(value[i], threshold);
         }
     }
-#endif
-#if RGB565
-    if (format != QL_FORMAT_RGB888) {
+    if (RGB565 && format != QL_FORMAT_RGB888) {
         put_rgb565(pixels, x, value, threshold, format == QL_FORMAT_RGB565_LE);
     }
-#endif
-    (void)format;
 }

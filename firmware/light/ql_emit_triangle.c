@@ -12,22 +12,26 @@
 
 /* v + b1 e1 + b2 e2 along one axis, to nearest. The weights add up to less than
  * 1 and the edges are < 2^15, so the sum is < 2^31 (draft) or 2^47. */
+#if QL_POS_BITS == 0
 QL_FAST_INLINE ql_pos_t blend(
         int32_t v, int32_t e1, int32_t e2, uint32_t b1, uint32_t b2)
 {
-#if QL_POS_BITS == 0
     /* b <= 65535: |b e| < 2^31; the sum lies between two box coordinates */
     const int32_t sum = ql_i32((uint32_t)e1 * b1 + (uint32_t)e2 * b2);
 
     return v + ql_asr32(ql_asr32(sum, QL_BARY_BITS - 1) + 1, 1);
+}
 #else
+QL_FAST_INLINE ql_pos_t blend(
+        int32_t v, int32_t e1, int32_t e2, uint32_t b1, uint32_t b2)
+{
     const int64_t sum = (int64_t)e1 * b1 + (int64_t)e2 * b2;
 
     return v * (1 << QL_POS_BITS) +
            (int32_t)ql_asr64(
                    ql_asr64(sum, QL_BARY_BITS - QL_POS_BITS - 1) + 1, 1);
-#endif
 }
+#endif
 
 void ql_emit_triangle_point(const ql_scene_t *scene, uint16_t light,
         ql_uniform2_t u, ql_emit_point_t *point)

@@ -22,6 +22,11 @@ QL_FX_INLINE uint32_t ql_mulhi_u32(uint32_t a, uint32_t b)
     return ah * bh + (mid >> 16) + (low >> 16);
 }
 
+QL_FX_INLINE uint32_t ql_mulhi_u32_rounded(uint32_t a, uint32_t b)
+{
+    return ql_mulhi_u32(a, b) + (a * b >> 31); /* a b <= (2^32 - 1)^2 */
+}
+
 QL_INLINE int32_t ql_mulhi_su32(int32_t a, uint32_t b)
 {
     const uint32_t high = ql_mulhi_u32((uint32_t)a, b);

@@ -13,6 +13,11 @@ QL_INLINE uint32_t ql_mulhi_u32(uint32_t a, uint32_t b)
     return (uint32_t)((uint64_t)a * b >> 32);
 }
 
+QL_INLINE uint32_t ql_mulhi_u32_rounded(uint32_t a, uint32_t b)
+{
+    return (uint32_t)(((uint64_t)a * b + 0x80000000u) >> 32);
+}
+
 QL_INLINE int32_t ql_mulhi_su32(int32_t a, uint32_t b)
 {
     return ql_i32((uint32_t)((uint64_t)((int64_t)a * (int64_t)b) >> 32));

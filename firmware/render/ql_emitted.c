@@ -6,16 +6,6 @@
 #include "light/ql_emit_sky.h"
 #include "render/ql_mis.h"
 
-/* round(a b / 2^32) */
-static uint32_t multiply_rounded(uint32_t a, uint32_t b)
-{
-#if QL_PORT_WIDE_MUL
-    return (uint32_t)(((uint64_t)a * b + 0x80000000u) >> 32);
-#else
-    return ql_mulhi_u32(a, b) + (a * b >> 31); /* a b <= (2^32 - 1)^2 */
-#endif
-}
-
 void ql_emitted_add(const ql_context_t *context, const ql_rgb_t *throughput,
         const ql_uq32_t emission[3], ql_real_t scale)
 {
@@ -23,7 +13,7 @@ void ql_emitted_add(const ql_context_t *context, const ql_rgb_t *throughput,
 
     scale.e = ql_real_exponent((int32_t)scale.e + throughput->e);
     for (unsigned i = 0; i < 3; i++) {
-        value[i] = multiply_rounded(throughput->c[i], emission[i]);
+        value[i] = ql_mulhi_u32_rounded(throughput->c[i], emission[i]);
     }
     ql_film_add(context->sum, value, scale, ql_sampler_key(context->sampler),
             context->diag);

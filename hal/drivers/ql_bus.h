@@ -9,8 +9,11 @@
 
 #include "base/ql_base.h"
 
-/* Select the panel (true) or release it, once everything sent has left. */
-void ql_bus_select(bool selected);
+/* Who listens to the bus. */
+typedef enum { QL_BUS_NOBODY, QL_BUS_PANEL } ql_bus_listener_t;
+
+/* Select the panel or release it, once everything sent has left. */
+void ql_bus_select(ql_bus_listener_t listener);
 
 /* Send bytes as commands. Returns false if the bus did not take them. */
 QL_MUST_CHECK bool ql_bus_command(const uint8_t *bytes, uint16_t size);

@@ -45,13 +45,13 @@ static const uint8_t set_up[] = {
 
 static ql_status_t finish(bool done)
 {
-    ql_bus_select(false);
+    ql_bus_select(QL_BUS_NOBODY);
     return done ? QL_OK : QL_ERR_DISPLAY;
 }
 
 ql_status_t ssd0323_init(void)
 {
-    ql_bus_select(true);
+    ql_bus_select(QL_BUS_PANEL);
     return finish(ql_bus_command(set_up, sizeof set_up));
 }
 
@@ -64,7 +64,7 @@ ql_status_t ssd0323_write(uint16_t row, const uint8_t *pixels)
     }
     window[4] = (uint8_t)row;
     window[5] = (uint8_t)row;
-    ql_bus_select(true);
+    ql_bus_select(QL_BUS_PANEL);
     return finish(ql_bus_command(window, sizeof window) &&
                   ql_bus_data(pixels, SSD0323_WIDTH / 2));
 }

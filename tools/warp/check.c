@@ -161,7 +161,7 @@ static void collect(const warp_t *warp, const warp_setup_t *s, const warp_t *as,
         warp_point_t p = {{0, 0, 0}, 0, false};
         double c[3] = {0, 0, 0}, exact;
 
-        warp_numbers(false, seed, i, u);
+        warp_numbers(QL_SAMPLER_RANDOM, seed, i, u);
         warp_draw(warp, s, u, &p);
         if (!p.inside || p.density <= 0) {
             fit->outside++;

@@ -90,7 +90,7 @@ static double weight_of(uint32_t i)
 {
     uint32_t u[WARP_NUMBERS];
 
-    warp_numbers(false, 4, i, u);
+    warp_numbers(QL_SAMPLER_RANDOM, 4, i, u);
     return 1 + ql_mulhi_u32(u[0], 1000);
 }
 

@@ -30,7 +30,7 @@ static void draw_samples(plot_t *p)
     for (uint32_t i = 0; i < p->n; i++) {
         plot_sample_t *s = &p->samples[i];
 
-        warp_numbers(true, 1, i, s->u);
+        warp_numbers(QL_SAMPLER_SOBOL, 1, i, s->u);
         warp_draw(p->warp, p->setup, s->u, &s->point);
         s->group = group_of(p, s);
     }

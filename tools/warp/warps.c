@@ -678,13 +678,12 @@ void warp_moments(const warp_t *warp, const warp_setup_t *s, warp_moments_t *m)
     }
 }
 
-void warp_numbers(
-        bool sobol, uint32_t seed, uint32_t index, uint32_t u[WARP_NUMBERS])
+void warp_numbers(ql_sampler_kind_t kind, uint32_t seed, uint32_t index,
+        uint32_t u[WARP_NUMBERS])
 {
     ql_sampler_t sampler;
 
-    ql_sampler_begin(
-            &sampler, sobol ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM, seed, 0, 0);
+    ql_sampler_begin(&sampler, (uint8_t)kind, seed, 0, 0);
     ql_sampler_start(&sampler, index);
     for (uint32_t pair = 0; pair < WARP_NUMBERS / 2; pair++) {
         const ql_uniform2_t two = ql_sampler_2d(&sampler, pair);

@@ -14,6 +14,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/ql_settings.h"
 #include "sample/lecture/ql_alias.h"
 #include "warp/ql_warp_spherical.h"
 #include "sample/ql_table.h"
@@ -136,9 +137,9 @@ void warp_add_moments(const double *x, double weight, warp_moments_t *m);
 double warp_sine(const double *x);
 double warp_from_axis(const double *x);
 
-/* Uniform numbers of sample index: random, or a Sobol set. */
-void warp_numbers(
-        bool sobol, uint32_t seed, uint32_t index, uint32_t u[WARP_NUMBERS]);
+/* Uniform numbers of sample index, of either sampler. */
+void warp_numbers(ql_sampler_kind_t kind, uint32_t seed, uint32_t index,
+        uint32_t u[WARP_NUMBERS]);
 
 /* How well samples fit a density. */
 typedef struct {

@@ -145,11 +145,11 @@ bool ql_hal_stop_requested(void)
     return stop;
 }
 
-void ql_bus_select(bool selected)
+void ql_bus_select(ql_bus_listener_t listener)
 {
     /* A bus that stays busy for seconds is reported by the next send. */
     (void)wait_until(SSI0 + SSI_SR, 1u << 4, 0);
-    QL_REG(GPIO_A + GPIO_DATA(0x08u)) = selected ? 0 : 0x08u;
+    QL_REG(GPIO_A + GPIO_DATA(0x08u)) = listener == QL_BUS_PANEL ? 0 : 0x08u;
 }
 
 static bool send(const uint8_t *bytes, uint16_t size, uint32_t data_bit)

@@ -239,13 +239,13 @@ soft_t soft_div(soft_t a, soft_t b)
 soft_t soft_sqrt(soft_t a)
 {
     u128_t n = {0, 0}, root = {0, 0};
-    const bool odd = (a.e & 1) != 0;
+    const bool odd = (a.e & 1) != 0, negative = false;
 
     /* m 2^64 2^(e - 64), or m 2^63 2^(e - 63): an even exponent */
     n.high = odd ? a.m >> 1 : a.m;
     n.low = odd ? a.m << 63 : 0;
     root.low = u128_sqrt(n);
-    return normalise(false, root, (a.e - (odd ? 63 : 64)) / 2);
+    return normalise(negative, root, (a.e - (odd ? 63 : 64)) / 2);
 }
 
 /* sum of (-1)^k x^(2k + first) / (2k + first)!, for 0 < x < pi/2 */
