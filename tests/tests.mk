@@ -90,7 +90,8 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \
     tools/ref|tests/tools/test_ref.sh; \
     tools/recv|tests/tools/test_recv.sh; \
-    tools/run|tests/tools/dev/test_run.sh;
+    tools/run|tests/tools/dev/test_run.sh; \
+    tools/setup|tests/tools/dev/test_setup.sh;
 jobs_lint := lint/layers|tests/lint/check_layers.sh; \
     lint/circles|tests/lint/check_circles.sh; \
     lint/shape|tests/lint/check_shape.sh; \

@@ -78,9 +78,14 @@ bare="$bare -DDIGEST_BARE=\"$work/blobs.bin\""
 matches gcc_O0 '' gcc -O0 "$work/blobs.bin"
 matches gcc_O2 '' gcc -O2 "$work/blobs.bin"
 matches clang_Os '' clang -Os "$work/blobs.bin"
-matches gcc_32_bit '' gcc \
-    "-m32 -Os -isystem /usr/include/$(gcc -print-multiarch)" "$work/blobs.bin"
-matches powerpc_big_endian qemu-ppc powerpc-linux-gnu-gcc-12 '-static -O2' \
+if tools/dev/setup.sh --x86; then
+    matches gcc_32_bit '' gcc \
+        "-m32 -Os -isystem /usr/include/$(gcc -print-multiarch)" \
+        "$work/blobs.bin"
+else
+    say case_55_gcc_32_bit_cannot_run_on_this_machine 0 "$(uname -m)"
+fi
+matches powerpc_big_endian qemu-ppc powerpc-linux-gnu-gcc '-static -O2' \
     "$work/blobs.bin"
 lib=-lgcc
 matches armv6m_without_wide_multiplication qemu-arm arm-none-eabi-gcc \
