@@ -95,7 +95,9 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
 jobs_lint := lint/layers|tests/lint/check_layers.sh; \
     lint/circles|tests/lint/check_circles.sh; \
     lint/shape|tests/lint/check_shape.sh; \
-    lint/docs|tests/lint/check_docs.sh; lint/format|tests/lint/check_format.sh;
+    lint/docs|tests/lint/check_docs.sh; \
+    lint/format|tests/lint/check_format.sh; \
+    lint/lint|tests/tools/dev/test_lint.sh;
 jobs_boards := boards|tests/boards/test_boards.sh; \
     tools/trade|tests/tools/test_trade.sh; \
     boards/stack|tests/tools/test_stack_report.sh; \

@@ -22,8 +22,10 @@ set -u
 arrows_max=0 # arrows of circles between files
 suite=lint/circles
 . tests/support/claims.sh
-# shellcheck disable=SC2046  # no name has a space
-includes=$(awk -f tests/lint/includes.awk $(git ls-files '*.c' '*.h'))
+. tests/lint/tree.sh
+files=$(tree_files '*.c' '*.h')
+# shellcheck disable=SC2086  # no name has a space
+includes=$(awk -f tests/lint/includes.awk $files < /dev/null)
 
 # Arrows "FROM TO" that are part of a circle. What needs nothing, or is needed
 # by nothing, is taken away until none is left; then who reaches whom is known.
@@ -81,6 +83,7 @@ if [ "${1-}" = --order ]; then
     exit
 fi
 
+say_found "$files"
 [ "$(printf '%s\n' 'a b' 'b c' 'c a' 'c d' 'd e' 'e f' 'f e' 'g a' | circles |
     paste -s -d ' ' -)" = 'a->b b->c c->a e->f f->e' ]
 say circles_of_three_and_two_are_seen_and_nothing_else $?

@@ -15,6 +15,9 @@ set -u
 layers='base math sample warp scene blob trace material light film render app'
 suite=lint/layers
 . tests/support/claims.sh
+. tests/lint/tree.sh
+files=$(tree_files '*.c' '*.h')
+say_found "$files"
 
 bad=
 for layer in $layers; do
@@ -55,8 +58,8 @@ tools/figure/  ^firmware/|^tools/lib/
 tools/[^/]*/   ^firmware/|^tools/lib/|^tools/figure/
 tests/         .
 '
-# shellcheck disable=SC2046  # no name has a space
-bad=$(awk -f tests/lint/includes.awk $(git ls-files '*.c' '*.h') |
+# shellcheck disable=SC2086  # no name has a space
+bad=$(awk -f tests/lint/includes.awk $files < /dev/null |
     awk -v rules="$rules" '
         BEGIN {
             n = split(rules, row, "\n")

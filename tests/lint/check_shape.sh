@@ -172,6 +172,8 @@ if [ "$list" = no ]; then
     [ "$(sample | paste -s -d , -)" = "$wanted" ]
     say facts_of_a_sample_are_those_in_it $?
 fi
+[ -n "$facts" ]
+say there_are_files_to_look_at $?
 at_most bodies_of_the_core_have_few_gates $gates_max "$(gates)"
 at_most few_functions_have_nine_parameters_or_more $wide_parameters \
     "$(facts_of parameters "\$3 > $parameters_max")"
