@@ -4,7 +4,7 @@
 #
 # usage: tests/tools/dev/test_setup.sh
 #
-# On machines made up of a folder of programs that pretend: apt, uname, compilers.
+# On machines made up: a folder of programs that pretend, apt and compilers too.
 #
 # Example: tests/tools/dev/test_setup.sh
 
