@@ -138,6 +138,25 @@ say a_run_without_a_failure_says_so_and_succeeds $?
 [ "$(ls "$folder/test")" = log ]
 say nothing_but_logs_is_left $?
 
+# ---- being ended
+
+cat > "$folder/jobs" << END
+first|echo \$\$ > '$work/left'; sleep 1000
+second|echo second is_never_reached ok
+END
+rm -f "$work/left"
+BUILD=$folder setsid tests/run.sh "$folder/jobs" > "$work/said" 2>&1 &
+run=$!
+while [ ! -s "$work/left" ] && kill -0 $run; do sleep 0.2; done
+kill -s TERM -- "-$run"
+wait $run
+for _ in 1 2 3 4 5 6 7 8 9 10; do
+    gone "$(cat "$work/left")" && break
+    sleep 0.5
+done
+gone "$(cat "$work/left")"
+say a_run_that_is_ended_takes_its_jobs_along $?
+
 # ---- order
 
 # One at a time, so that what is printed is the order in which they ran.
