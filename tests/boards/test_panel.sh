@@ -25,7 +25,7 @@ build=${BUILD:-build}
 dir=$(mktemp -d) || exit 3
 trap 'rm -rf "$dir"' EXIT
 tests/boards/with_monitor.sh "$1" "$dir/picture.ppm" \
-    "screendump $dir/panel.ppm" qemu-system-arm -M lm3s6965evb || exit
+    "screendump \"$dir/panel.ppm\"" qemu-system-arm -M lm3s6965evb || exit
 
 header=$(head -c 15 "$dir/panel.ppm" | tr '\n' ' ')
 if [ "$header" != 'P6 512 256 255 ' ]; then
