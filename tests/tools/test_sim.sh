@@ -127,10 +127,8 @@ for signal in INT TERM; do
     "$sim" scene.qlb -o keep.ppm --save-sums keep.qls --size 400x400 \
         --spp 100000 2>err.txt &
     child=$!
-    tries=0 # up to ten seconds on a busy machine
     until [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 2 ] ||
-            [ $tries -ge 100 ]; do
-        tries=$((tries + 1))
+            ! kill -0 $child 2>/dev/null; do
         sleep 0.1
     done
     begun=$(ls ./*.tmp 2>/dev/null | wc -l)

@@ -16,10 +16,11 @@ the tools need none of it: only a C compiler and make.
                 tests of 32-bit x86 then say that they cannot run here
   NO_INSTALL=1  as --check, from the environment
 
-Names of packages are those of Debian 12 and 13 and Ubuntu 24.04, on amd64 and
-arm64. All was run on Debian 12, amd64; of the others only the choices that this
-script makes are tested, with a simulated apt. Sizes and instructions are
-compared with those of Debian 12's compilers, so "make bench" fails with others.
+Tests have been run on Debian 12, amd64, only. Apt of Debian 13, amd64 and arm64,
+has been asked, and can install all of it together. Debian 12 on arm64 cannot:
+it has no gcc-powerpc-linux-gnu there. Ubuntu 24.04 has not been tried. Sizes
+and instructions are compared with those of Debian 12's compilers, so "make
+bench" may fail with others.
 
 Example: NO_INSTALL=1 tools/dev/setup.sh
 END
