@@ -16,11 +16,11 @@ the tools need none of it: only a C compiler and make.
                 tests of 32-bit x86 then say that they cannot run here
   NO_INSTALL=1  as --check, from the environment
 
-Tests have been run on Debian 12, amd64, only. Apt of Debian 13, amd64 and arm64,
-has been asked, and can install all of it together. Debian 12 on arm64 cannot:
-it has no gcc-powerpc-linux-gnu there. Ubuntu 24.04 has not been tried. Sizes
-and instructions are compared with those of Debian 12's compilers, so "make
-bench" may fail with others.
+Tests have been run on Debian 12, amd64, only. Apt of Debian 13 has been asked,
+for amd64 and arm64, and can install all of it together. Debian 12 on arm64
+cannot: it has no gcc-powerpc-linux-gnu there. Ubuntu 24.04 has not been tried.
+Sizes and instructions are compared with those of Debian 12's compilers, so
+"make bench" may fail with others.
 
 Example: NO_INSTALL=1 tools/dev/setup.sh
 END
@@ -62,23 +62,27 @@ present() {
     [ $# -eq 1 ] || "$@" "$work/program.c" -o "$work/program" 2>/dev/null
 }
 
-# look: sets $missing and $packages
+known() {
+    apt-cache show "$1" 2>/dev/null | grep -q .
+}
+
+# look: sets $missing, $packages, and $unknown, those that apt cannot install
 look() {
     missing=
     packages=
+    unknown=
     while read -r package trial; do
         # shellcheck disable=SC2086 # several words
         if ! present $trial; then
             case $package in
             */*)
-                first=${package%/*}
-                apt-cache show "$first" 2>/dev/null | grep -q . &&
-                    package=$first
+                known "${package%/*}" && package=${package%/*}
                 package=${package#*/}
                 ;;
             esac
             missing="$missing, $trial"
             packages="$packages $package"
+            known "$package" || unknown="$unknown $package"
         fi
     done <<END
 $(needs)
@@ -119,30 +123,39 @@ sudo=
 if [ "$(id -u)" -ne 0 ]; then
     sudo='sudo '
 fi
-install="apt-get install -y --no-install-recommends$packages"
+install="apt-get install -y --no-install-recommends"
 if [ -n "$check" ]; then
     echo "setup.sh: the tests need$missing; install with" >&2
-    echo "    $sudo$install" >&2
+    echo "    $sudo$install$packages" >&2
     exit 1
 fi
 if [ -n "$sudo" ] && ! command -v sudo >/dev/null 2>&1; then
     echo "setup.sh: not root, and no sudo; as root, run" >&2
-    echo "    $install" >&2
+    echo "    $install$packages" >&2
     exit 1
 fi
 
-# A repository that has nothing to do with this may be broken.
-echo "setup.sh: installing$packages"
+# A repository that has nothing to do with this may be broken. What a new system
+# calls its packages is known only now.
 ${sudo}apt-get update -q ||
     echo "setup.sh: apt-get update failed; trying with what apt knows" >&2
+look
+asked=
+for package in $packages; do
+    case " $unknown " in
+    *" $package "*) ;;
+    *) asked="$asked $package" ;;
+    esac
+done
+echo "setup.sh: installing$asked"
 # shellcheck disable=SC2086 # several words
-${sudo}env DEBIAN_FRONTEND=noninteractive $install
+${sudo}env DEBIAN_FRONTEND=noninteractive $install $asked
 status=$?
-asked=$packages
 look
 if [ -n "$packages" ]; then
     echo "setup.sh: still missing:$missing" >&2
-    echo "    $sudo$install" >&2
+    echo "    $sudo$install$packages" >&2
+    [ -z "$unknown" ] || echo "    apt has no$unknown" >&2
     [ $status -eq 0 ] || echo "    failed with status $status" >&2
     exit 3
 fi

@@ -55,9 +55,15 @@ done
 END
 cat > "$work/apt-cache" << 'END'
 #!/bin/sh
+[ -z "${fresh-}" ] || grep -q update "$machine/calls" 2> /dev/null || exit
 case $2 in
 gcc) echo "Depends: cpp (= 4), gcc-${gcc%%.*} (>= 12.2.0)" ;;
-*) [ "$2" = "${known:-none}" ] && echo "Package: $2" ;;
+*)
+    case " ${apt_lacks-qemu-system-riscv} " in
+    *" $2 "*) ;;
+    *) echo "Package: $2" ;;
+    esac
+    ;;
 esac
 END
 printf '#!/bin/sh\necho "$arch"\n' > "$work/uname"
@@ -174,9 +180,14 @@ sets_up 0 && [ "$(packages)" = gcc-13-multilib ]
 say it_is_the_version_of_the_gcc_that_is_there $?
 
 machine trixie
-known=qemu-system-riscv sets_up 0 && packages | grep -qx qemu-system-riscv &&
-    ! packages | grep -q misc
-say a_name_that_apt_knows_is_preferred $?
+gcc=14
+apt_lacks= fresh=1 sets_up 0 && packages | grep -qx qemu-system-riscv &&
+    ! packages | grep -q misc && packages | grep -qx gcc-14-multilib
+say a_name_that_apt_knows_after_its_update_is_preferred $?
+machine without $most
+apt_lacks='valgrind qemu-system-riscv' sets_up 3 && says 'apt has no valgrind' &&
+    [ "$(packages)" = avr-libc ]
+say what_apt_has_not_keeps_nothing_else_from_being_installed $?
 
 machine arm64
 arch=aarch64
