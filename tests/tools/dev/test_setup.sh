@@ -185,9 +185,9 @@ apt_lacks= fresh=1 sets_up 0 && packages | grep -qx qemu-system-riscv &&
     ! packages | grep -q misc && packages | grep -qx gcc-14-multilib
 say a_name_that_apt_knows_after_its_update_is_preferred $?
 machine without $most
-apt_lacks='valgrind qemu-system-riscv' sets_up 3 && says 'apt has no valgrind' &&
-    [ "$(packages)" = avr-libc ]
-say what_apt_has_not_keeps_nothing_else_from_being_installed $?
+apt_lacks='valgrind qemu-system-riscv' sets_up 3 &&
+    says 'apt has no valgrind' && [ "$(packages)" = avr-libc ]
+say what_apt_lacks_keeps_nothing_else_out $?
 
 machine arm64
 arch=aarch64
