@@ -76,7 +76,15 @@ jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool) \
 # Of programs that come out the same, byte for byte, one runs: known once built.
 programs_configs := $(foreach c,$(filter-out $(full),$(configs)),$(addprefix \
     $O/test/$(c)/,$(unit)))
-jobs_gates := configs/triples|tests/configs/test_gates.sh --triples; \
+# What each of them draws has the bits of a build that has everything.
+others := $(filter-out $(full),$(configs))
+programs_golden := $(others:%=$O/test/%/golden/golden)
+golden_blobs := $O/golden/blobs
+$(golden_blobs): tests/golden/scenes.sh $O/qlux-scene $(wildcard tests/scenes/*)
+	$(call step,SCENES,$(@D))tests/golden/scenes.sh $O/qlux-scene $(@D) && \
+	    touch $@
+jobs_gates := golden/gates|tests/golden/some.sh $(others); \
+    configs/triples|tests/configs/test_gates.sh --triples; \
     configs/gates|tests/configs/test_gates.sh;
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
 jobs_scripts := tools/make|tests/tools/test_make.sh; \
@@ -123,7 +131,7 @@ test: ## Run everything, on this PC and on every emulated board
 test-all: $(programs) $O/test/fine/tools/stream_main $O/cornell.qlb \
     $O/mesh.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
-    $(programs_configs)
+    $(programs_configs) $(programs_golden) $(golden_blobs)
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(strip \
 	    )$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
@@ -150,7 +158,7 @@ error-budget: $O/cornell.qlb $O/mesh.qlb $(budget)
 	@for program in $(budget); do $$program --table || exit; echo; done
 
 test-configs: ## Unit tests with every pair of gates, the core with every triple
-test-configs: $(programs_configs)
+test-configs: $(programs_configs) $(programs_golden) $(golden_blobs)
 	$(call run,$(jobs_configs))
 
 test-mutants: ## Plant faults in the core, one by one: a test has to see each

@@ -2,6 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 /* Usage: golden print|check|some|update CHECKSUMS BLOB16 BLOB8 [SCENE.qlb ...]
+ *        golden bits|tables
  *
  * BLOB16 and BLOB8 are one scene with both node widths; every further scene is
  * rendered under its own name.
@@ -12,6 +13,7 @@
  * no longer means anything. some is check for a build with gates off: what the
  * build lacks is left out, and what it has must have the bits of a build that
  * has everything. update rewrites the lines of this build and keeps the others.
+ * bits prints a width of nodes that the build has, tables how it names them.
  *
  * Plain C99 and stdio: it runs wherever the core does. Numbers go into a
  * checksum as bytes of fixed order. */
@@ -615,6 +617,12 @@ int main(int argc, char **argv)
 {
     ql_scene_t scenes[SCENES_MAX];
 
+    if (argc == 2 && strcmp(argv[1], "bits") == 0) {
+        return puts(QL_CFG_NODE16 ? "16" : "8") == EOF;
+    }
+    if (argc == 2 && strcmp(argv[1], "tables") == 0) {
+        return puts(TABLES) == EOF;
+    }
     if (argc < 5 || argc > 3 + SCENES_MAX) {
         (void)fputs("usage: golden print|check|some|update CHECKSUMS BLOB16 "
                     "BLOB8 [SCENE.qlb ...]\n"

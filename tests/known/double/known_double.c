@@ -2,9 +2,9 @@
 /* SPDX-License-Identifier: MIT */
 
 /* Usage: known_double [CLAIM [CORNELL.qlb CORNELL.obj]]. Both pictures have
- * 256x256 pixels and 4 bounces, the core's 256 samples a pixel, the other one
+ * 64x64 pixels and 4 bounces, the core's 256 samples a pixel, the other one
  * 144 stratified ones. Their relative mean squared error is the noise of both;
- * a mean over 32x32 pixels has far less, so there the tracers must agree much
+ * a mean over 16x16 pixels has far less, so there the tracers must agree much
  * closer. */
 
 #include <math.h>
@@ -15,9 +15,9 @@
 #include "support/ql_test.h"
 #include "qlux.h"
 
-enum { SIZE = 256, SPP = 256, BOUNCES = 4 };
+enum { SIZE = 64, SPP = 256, BOUNCES = 4 };
 enum { SIDE = 12 }; /* of the reference: 144 samples */
-enum { BLOCK = 32, BLOCKS = SIZE / BLOCK };
+enum { BLOCK = 16, BLOCKS = SIZE / BLOCK };
 enum { VALUES = 3 * SIZE * SIZE, BLOCK_VALUES = 3 * BLOCKS * BLOCKS };
 
 static const dpt_camera_t camera = {
@@ -156,8 +156,9 @@ TEST(cornell_agrees_within_relative_mse_of_0_01)
     NOTE("%.5f, limit 0.01, the noise of both", error);
 }
 
-/* The limit is four times what a change of seed gives. */
-#define BLOCK_LIMIT 2e-5
+/* Three times what is measured, and half of what light too strong by 1 % gives.
+ */
+#define BLOCK_LIMIT 5e-5
 
 TEST(cornell_agrees_where_noise_is_averaged_out)
 {

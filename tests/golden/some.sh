@@ -1,0 +1,40 @@
+#!/bin/sh
+# some.sh - a configuration has the bits of a build that has everything
+# SPDX-License-Identifier: MIT
+#
+# usage: tests/golden/some.sh CONFIGURATION...
+#
+# Gates but QL_CFG_PRECISION and those of the tables change no bit: what a
+# configuration of tests/configs can draw is compared with the checksums of
+# full builds. Prints one claim a configuration. The blobs are those of
+# scenes.sh in build/golden, the programs build/test/CONFIGURATION/golden/golden.
+#
+# Environment: BUILD (build).
+#
+# Example: tests/golden/some.sh p01 least
+
+set -u
+built=${BUILD:-build}
+dir=$built/golden
+. tests/support/claims.sh
+
+for config; do
+    suite=golden/$config
+    golden=$built/test/$config/golden/golden
+    bits=$("$golden" bits) && tables=$("$golden" tables) || bits=
+    set -- "$dir/16/cornell.qlb" "$dir/8/cornell.qlb" "$dir/$bits"/corner-*.qlb
+    if [ -z "$tables" ]; then
+        for scene in square glossy sky lens smooth strategies; do
+            set -- "$@" "$dir/$bits/$scene.qlb"
+        done
+    fi
+    said=$("$golden" some tests/golden/checksums.txt "$@" 2>&1)
+    status=$?
+    [ $status -eq 0 ] || printf '%s\n' "$said"
+    say gates_change_no_bit $status "$(printf '%s\n' "$said" | tail -n 1)"
+done
+awk '{ $2 = "00000000" } 1' tests/golden/checksums.txt >"$dir/changed.txt"
+"$golden" some "$dir/changed.txt" "$@" >"$dir/rejects.log" 2>&1
+[ $? -eq 1 ]
+say changed_checksums_are_rejected $?
+exit $((failures > 0))
