@@ -83,7 +83,8 @@ say the_readme_recommends_what_the_table_does $?
 # ---- measurements -----------------------------------------------------------
 
 cd "$root" || exit 3
-awk -v quick=0 -f tools/trade/rules.awk - >"$work/out.txt" 2>&1 <<'END'
+awk -v quick=0 -v build="$build" -f tools/dev/gates.awk \
+    -f tools/trade/rules.awk - >"$work/out.txt" 2>&1 <<'END'
 base base all draft 7 1 16
 END
 [ $? -eq 2 ] && grep -q ':1: expected NAME KNOB' "$work/out.txt"
