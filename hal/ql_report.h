@@ -9,7 +9,7 @@
 
 #include "ql_hal.h"
 
-/* Exit codes of an emulated board besides those of a status, -status. */
+/* Exit codes of an emulated board; a status s leaves with -s. */
 #define QL_EXIT_PANIC 100
 #define QL_EXIT_FAULT 101
 

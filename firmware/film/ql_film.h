@@ -32,11 +32,11 @@ typedef struct {
  *                  full, its faint for each that was rounded by chance
  *
  * 2^24 samples of the largest contribution fit; nothing wraps.
- * Error: from QL_FAINT on half a unit of 2^-24, half up: 2^-9 of the
- *        contribution at most. Below it is rounded up with the chance of what
- *        is cut off, so however faint light is its mean stays right, unless
- *        scale is 1 or more, when value has no more bits either. What is below
- *        2^-32 of 2^-24 adds nothing.
+ * Error: a contribution of QL_FAINT or more is rounded half up to 2^-24, which
+ *        is 2^-9 of the contribution at most. A fainter one is rounded up with
+ *        the probability of the part that is cut off, so its mean is right
+ *        however faint it is; with a scale of 1 or more value has no more bits
+ *        to lose. A contribution below 2^-56 adds nothing.
  * Cost:  a product and a 32-bit shift a channel; if faint a hash more.
  */
 void ql_film_add(ql_sum_t *sum, const ql_uq31_t value[3], ql_real_t scale,

@@ -12,7 +12,7 @@
  *   sky        map: its distribution      the same as AREA
  *              constant: cosine hemisphere
  *
- * Densities here are those of one emitter; whoever chose it divides by the
+ * A density here belongs to one emitter; whoever chose it divides by the
  * probability of that, ql_light_weight(). Each kind of emitter has a file of
  * its own. */
 

@@ -17,7 +17,7 @@ QL_FX_INLINE uint32_t ql_mulhi_u32(uint32_t a, uint32_t b)
     const uint32_t al = a & 0xffffu, ah = a >> 16;
     const uint32_t bl = b & 0xffffu, bh = b >> 16;
     const uint32_t mid = ah * bl + (al * bl >> 16); /* <= (2^16-1) 2^16 */
-    const uint32_t low = al * bh + (mid & 0xffffu); /* likewise */
+    const uint32_t low = al * bh + (mid & 0xffffu); /* <= (2^16-1) 2^16 */
 
     return ah * bh + (mid >> 16) + (low >> 16);
 }

@@ -36,12 +36,11 @@ uint32_t ql_rsqrt_m(uint32_t m);
 
 /* The same as warps use it, by the user's choice of tables.
  *
- *   m       -  likewise
- *   return  likewise
+ *   m       -  as for ql_rsqrt_m()
+ *   return  as of ql_rsqrt_m()
  *
- * Error: with h = 2^-(QL_CFG_TABLE_BITS + 1), that of an entry, 1.5 h^2 (draft)
- *        or 3.4 h^4 (fine), or that of ql_rsqrt_m() if it is more; without
- *        QL_CFG_TABLE_LERP h.
+ * Error: with h = 2^-(QL_CFG_TABLE_BITS + 1), 1.5 h^2 (draft), 3.4 h^4 (fine),
+ *        or that of ql_rsqrt_m() if it is more; h without QL_CFG_TABLE_LERP.
  * Cost:  one look-up, four multiplications (draft), seven (fine), or none.
  */
 #if QL_CFG_TABLE_LERP && QL_CFG_TABLE_BITS >= 7

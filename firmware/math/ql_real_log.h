@@ -1,8 +1,8 @@
 /* ql_real_log.h - logarithm and power to the base of 2 of real numbers */
 /* SPDX-License-Identifier: MIT */
 
-/* A real number has no sign, so logarithms are those of numbers below 1 and
- * exponents those of powers below 1, without their minus. Both keep their bits
+/* A real number has no sign, so logarithms are taken of numbers below 1 and
+ * powers are below 1; both are kept without their minus. Both keep their bits
  * where they are tiny. They are inline, for the one file of the core that asks
  * for them (ql_warp_lobe.c). */
 

@@ -76,7 +76,7 @@ void ql_sincos(ql_turn32_t turn, int32_t *sine, int32_t *cosine)
 static const uint32_t sine_series[] = {
         0xaaaaaaaau, 0x222221fbu, 0x0340320bu, 0x002e32d2u, 0x00019db1u};
 
-/* (1 - atan(a) / a) / z of z = a^2, likewise on [0, 1]; off by 2^-31. */
+/* (1 - atan(a) / a) / z of z = a^2 on [0, 1], as above; off by 2^-31. */
 static const uint32_t atan_series[] = {0x55555554u, 0x33333192u, 0x249206a7u,
         0x1c6d94a5u, 0x172251c8u, 0x12fd217du, 0x0ebf57c8u, 0x09cfd3d7u,
         0x04ee4b52u, 0x0196cc73u, 0x003d5c80u};

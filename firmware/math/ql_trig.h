@@ -10,7 +10,7 @@
  *
  *   turn    turn32  any angle; wraps
  *   sine    s1.30   out: in [-1, 1], and its error
- *   cosine  s1.30   out: likewise
+ *   cosine  s1.30   out: of the same angle
  *
  * Error: at most 2.0e-5 (draft) or 4.2e-8 (fine), absolute, by tables of 7
  *        bits. With h = pi / 2^(bits + 2), half a cell, and 2e-9 of rounding it

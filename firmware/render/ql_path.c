@@ -84,8 +84,8 @@ static ql_lobes_t lobes_of(const ql_bsdf_t *bsdf)
     return ql_bsdf_is_glossy(bsdf) ? QL_LOBES_GLOSSY : QL_LOBES_DIFFUSE;
 }
 
-/* Which random numbers a ray is drawn by: those of the vertex's first ray, or
- * those of a second one. */
+/* Which random numbers a ray is drawn by: the numbers of a vertex's first ray,
+ * or of its second. */
 typedef enum { FIRST_RAY, SECOND_RAY } numbers_t;
 
 /* Draw a ray from a vertex; false if its light is lost. ray may be the one that

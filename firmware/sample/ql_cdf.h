@@ -44,8 +44,8 @@ QL_INLINE uint16_t ql_cdf_sample(
 /* Probability of one entry.
  *
  *   cum     uq32      as for ql_cdf_sample()
- *   stride  words     likewise
- *   count   -         likewise
+ *   stride  words     as for ql_cdf_sample()
+ *   count   -         as for ql_cdf_sample()
  *   entry   0..count-1
  *   return  2^-32     0..2^32: the mass that ql_cdf_sample() chooses it with
  *

@@ -101,7 +101,7 @@ ql_uq32_t ql_table_position(uint16_t cell, ql_uq32_t rest, uint16_t count);
  *
  * Exact: as ql_table_pick(), so a cell is chosen with probability its mass; a
  *        cell, row or layer without mass is never entered. x is monotone in
- *        u[0] for a given row, and likewise above.
+ *        u[0] for a given row, y in u[1] for a given layer, and z in u[2].
  * Cost:  dims times that of ql_table_pick() and ql_table_position().
  */
 void ql_table_sample(

@@ -1,4 +1,4 @@
-/* ql_smooth.c - shading normals: those of the corners, interpolated */
+/* ql_smooth.c - shading normals, interpolated between the corners */
 /* SPDX-License-Identifier: MIT */
 
 #include "trace/ql_smooth.h"

@@ -1,4 +1,4 @@
-/* ql_smooth.h - shading normals: those of the corners, interpolated */
+/* ql_smooth.h - shading normals, interpolated between the corners */
 /* SPDX-License-Identifier: MIT */
 
 #ifndef QL_SMOOTH_H

@@ -83,7 +83,7 @@ static bool discriminant(const ql_blob_sphere_t *sphere, ql_vec3_t s,
             ql_real_mul(ql_real_from_u64((uint64_t)ql_vec_dot(d, d)),
                     ql_real_from_u64((uint64_t)square_of_radius(sphere)));
     const unsigned left = ql_clz64(cross); /* 64 for a ray at the centre */
-    /* whole is m 2^32 times 2^(e - 32); cross likewise after shifts */
+    /* whole is m 2^32 times 2^(e - 32); cross is too after shifts */
     const int32_t apart = whole.e - 32 - (int32_t)(2 * shift) + (int32_t)left;
 
     if (whole.m == 0 || (left < 64 && apart < 0)) {

@@ -49,7 +49,7 @@ bool ref_blocked(const ref_scene_t *scene, const ref_ray_t *ray,
 void ref_surface_at(const ref_scene_t *scene, const ref_ray_t *ray,
         const ref_hit_t *hit, ref_surface_t *surface);
 
-/* A side of a surface: that of the point's normals, or the other. */
+/* A side of a surface: where the point's normals lead, or the other one. */
 typedef enum { REF_ABOVE, REF_BELOW } ref_side_t;
 
 /* A ray that leaves a surface to a side. */

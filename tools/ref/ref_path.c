@@ -15,7 +15,7 @@ typedef struct {
     double carried[3];
     sight_t sight;
     double pdf;          /* of its direction, for its share */
-    ref_surface_t begun; /* where it began, likewise */
+    ref_surface_t begun; /* where it began, for its share */
     bool delta;
 } way_t;
 

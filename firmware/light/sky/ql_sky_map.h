@@ -41,7 +41,7 @@ void ql_sky_map_radiance(const ql_scene_t *scene, ql_vec3_t d,
  *   return    real   1 / pdf per solid angle, never 0:
  *                    2 pi^2 sin(theta) over the density of the map's table
  *
- * The density is that of the quantised table, so quantising biases nothing.
+ * The density is the quantised table's own, so quantising biases nothing.
  *
  * Error: of 1 / pdf relative, 2^-26, both precisions; of the direction 4e-5
  *        (draft) or 9e-8 (fine), twice the error of ql_sincos(), so looking it

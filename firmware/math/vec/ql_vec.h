@@ -54,7 +54,7 @@ QL_INLINE int64_t ql_vec_dot(ql_vec3_t a, ql_vec3_t b)
     return (int64_t)a.x * b.x + (int64_t)a.y * b.y + (int64_t)a.z * b.z;
 }
 
-/* a . b, likewise bounded. */
+/* a . b, with the same bound, as a call. */
 int64_t ql_vec_dot_call(ql_vec3_t a, ql_vec3_t b);
 
 /* a . n for positions' differences a and an exact normal n (|n| < 2^31). In

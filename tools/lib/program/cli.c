@@ -125,7 +125,7 @@ void cli_warn(const char *format, ...)
 
 void *cli_alloc(size_t count, size_t size)
 {
-    /* calloc checks the product; asking for 0 shall not look like failure. */
+    /* calloc checks the product; a request for 0 bytes must not fail. */
     void *memory = calloc(count != 0 ? count : 1, size != 0 ? size : 1);
 
     if (memory == NULL) {

@@ -16,7 +16,7 @@
  * byte and what was expected there if it is no blob for this core. */
 void *open_blob(ql_scene_t *scene, const char *path);
 
-/* Open a blob in memory, or cli_fail(CLI_INPUT) likewise.
+/* Open a blob in memory, or cli_fail(CLI_INPUT) in the same words.
  *
  *   scene  -      out
  *   blob   -      4-byte aligned

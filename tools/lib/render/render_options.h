@@ -28,7 +28,7 @@ typedef struct {
     bool roulette;
 } render_options_t;
 
-/* Parts of a program's table. Their fields are those of a render_options_t. */
+/* Parts of a program's table. Their fields lie in a render_options_t. */
 extern const option_t render_options_scene[];    /* SCENE.qlb */
 extern const option_t render_options_picture[];  /* -o, --format */
 extern const option_t render_options_settings[]; /* --size, --spp, .. */

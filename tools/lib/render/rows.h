@@ -1,7 +1,7 @@
 /* rows.h - a picture's rows on several threads: steps, progress, a stop */
 /* SPDX-License-Identifier: MIT */
 
-/* The only threads of the product are those of rows.c. qlux-sim and qlux-ref
+/* rows.c starts the only threads of the product. qlux-sim and qlux-ref
  * link it and nobody else does, so no other program needs a thread library.
  *
  * Rows are handed out one by one, and each pixel is written by the one thread

@@ -1,7 +1,7 @@
 /* model.h - everything a blob says, in the numbers of this machine */
 /* SPDX-License-Identifier: MIT */
 
-/* The structs are those of ql_blob.h, but every field holds its value in the
+/* The structs are from ql_blob.h, but every field holds its value in the
  * host's byte order: write_blob() and read_blob() convert. */
 
 #ifndef MODEL_H
