@@ -6,8 +6,8 @@
 #
 # Gates but QL_CFG_PRECISION and those of the tables change no bit: what a
 # configuration of tests/configs can draw is compared with the checksums of
-# full builds. Prints one claim a configuration. The blobs are those of
-# scenes.sh in build/golden, the programs build/test/CONFIGURATION/golden/golden.
+# full builds. Prints one claim a configuration. scenes.sh has made the blobs in
+# build/golden; the programs are build/test/CONFIGURATION/golden/golden.
 #
 # Environment: BUILD (build).
 #
