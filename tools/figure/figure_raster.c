@@ -250,7 +250,7 @@ static void blend(canvas_t *c, const figure_style_t *style)
 
 void figure_draw(const figure_t *figure, image_t *image, double scale)
 {
-    canvas_t c = {image, NULL, scale, 0, 0, 0, 0};
+    canvas_t c = {.image = image, .scale = scale};
 
     image_new_bytes(image, (uint32_t)lround(figure->width * scale),
             (uint32_t)lround(figure->height * scale));

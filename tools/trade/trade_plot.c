@@ -48,7 +48,7 @@ typedef struct {
 
 static figure_style_t style(uint32_t colour, double size)
 {
-    const figure_style_t s = {colour, 1, size, false, false};
+    const figure_style_t s = {.colour = colour, .opacity = 1, .size = size};
 
     return s;
 }

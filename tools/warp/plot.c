@@ -10,8 +10,10 @@
 
 #define PNG_SCALE 2.0
 
-static const figure_style_t style_ink = {0x20242c, 1, 18, false, true};
-static const figure_style_t style_alarm_text = {0xb91c1c, 1, 12, false, true};
+static const figure_style_t style_ink = {
+        .colour = 0x20242c, .opacity = 1, .size = 18, .bold = true};
+static const figure_style_t style_alarm_text = {
+        .colour = 0xb91c1c, .opacity = 1, .size = 12, .bold = true};
 
 static unsigned group_of(const plot_t *p, const plot_sample_t *s)
 {
@@ -40,7 +42,8 @@ static void draw_samples(plot_t *p)
 
 static void put_square_lines(plot_t *p)
 {
-    const figure_style_t style = {0x4b5563, 0.3, 0.6, false, false};
+    const figure_style_t style = {
+            .colour = 0x4b5563, .opacity = 0.3, .size = 0.6};
     const warp_cells_t *c = &p->setup->cells;
     figure_t *f = &p->figure;
 
@@ -89,8 +92,9 @@ static void put_square(plot_t *p)
 
     put_square_lines(p);
     for (unsigned group = 0; group < p->n_groups; group++) {
-        const figure_style_t style = {
-                plot_colour(p, group), 1, plot_dot_size(p), false, false};
+        const figure_style_t style = {.colour = plot_colour(p, group),
+                .opacity = 1,
+                .size = plot_dot_size(p)};
         bool begun = false;
 
         for (uint32_t i = 0; i < p->n; i++) {
@@ -126,7 +130,7 @@ static void put_arrow(plot_t *p)
 {
     const double y = plot_square_y(0.5), x0 = plot_square_x(1) + 16,
                  x1 = x0 + 28;
-    const figure_style_t line = {0x8b94a3, 1, 1.5, false, false};
+    const figure_style_t line = {.colour = 0x8b94a3, .opacity = 1, .size = 1.5};
 
     figure_line(&p->figure, line, x0, y, x1, y);
     figure_add(&p->figure, FIGURE_PATH, line);

@@ -8,17 +8,24 @@
 
 #define TWO_32 4294967296.0
 
-const figure_style_t style_note = {0x5b6472, 1, 12, false, false};
-const figure_style_t style_tick = {0x5b6472, 1, 11, false, false};
-const figure_style_t style_frame = {0x8b94a3, 1, 1, false, false};
-const figure_style_t style_hidden = {0x8b94a3, 0.6, 1, true, false};
-const figure_style_t style_body = {0xeef1f6, 1, 0, false, false};
-const figure_style_t style_lobe = {0xc2410c, 1, 2, false, false};
-const figure_style_t style_lobe_fill = {0xc2410c, 0.1, 0, false, false};
-const figure_style_t style_lobe_text = {0xc2410c, 1, 12, false, true};
-const figure_style_t style_even = {0x1d4ed8, 1, 1.4, true, false};
-const figure_style_t style_even_text = {0x1d4ed8, 1, 11, false, false};
-const figure_style_t style_bar = {0x9fb3d1, 1, 0, false, false};
+const figure_style_t style_note = {
+        .colour = 0x5b6472, .opacity = 1, .size = 12};
+const figure_style_t style_tick = {
+        .colour = 0x5b6472, .opacity = 1, .size = 11};
+const figure_style_t style_frame = {
+        .colour = 0x8b94a3, .opacity = 1, .size = 1};
+const figure_style_t style_hidden = {
+        .colour = 0x8b94a3, .opacity = 0.6, .size = 1, .dashed = true};
+const figure_style_t style_body = {.colour = 0xeef1f6, .opacity = 1};
+const figure_style_t style_lobe = {.colour = 0xc2410c, .opacity = 1, .size = 2};
+const figure_style_t style_lobe_fill = {.colour = 0xc2410c, .opacity = 0.1};
+const figure_style_t style_lobe_text = {
+        .colour = 0xc2410c, .opacity = 1, .size = 12, .bold = true};
+const figure_style_t style_even = {
+        .colour = 0x1d4ed8, .opacity = 1, .size = 1.4, .dashed = true};
+const figure_style_t style_even_text = {
+        .colour = 0x1d4ed8, .opacity = 1, .size = 11};
+const figure_style_t style_bar = {.colour = 0x9fb3d1, .opacity = 1};
 
 double plot_unit(uint32_t u)
 {
@@ -74,8 +81,9 @@ double plot_dot_size(const plot_t *p)
 void plot_dots(plot_t *p, plot_place_t *place, int pass, double opacity)
 {
     for (unsigned group = 0; group < p->n_groups; group++) {
-        const figure_style_t style = {
-                plot_colour(p, group), opacity, plot_dot_size(p), false, false};
+        const figure_style_t style = {.colour = plot_colour(p, group),
+                .opacity = opacity,
+                .size = plot_dot_size(p)};
         bool begun = false;
 
         for (uint32_t i = 0; i < p->n; i++) {
@@ -139,7 +147,8 @@ static void put_grid_line(plot_t *p, plot_place_t *place, int pass,
 
 void plot_grid(plot_t *p, plot_place_t *place, int pass, double opacity)
 {
-    const figure_style_t style = {0x4b5563, opacity, 0.6, false, false};
+    const figure_style_t style = {
+            .colour = 0x4b5563, .opacity = opacity, .size = 0.6};
 
     for (int k = 1; k < CLASSES_1; k++) {
         put_grid_line(p, place, pass, style, 0, (double)k / CLASSES_1);

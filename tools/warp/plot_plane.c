@@ -179,7 +179,7 @@ static void put_cell(plot_t *p, uint32_t k, double count, double wanted,
 {
     const double width = (CHART_X + CHART_W - WIDE_X) / p->setup->cells.n;
     const double x = WIDE_X + k * width;
-    const figure_style_t style = {colour, 0.55, 0, false, false};
+    const figure_style_t style = {.colour = colour, .opacity = 0.55};
 
     if (count > 0) {
         figure_box(&p->figure, FIGURE_AREA, style, x + gap,
@@ -226,8 +226,9 @@ void plot_cells(plot_t *p)
 void plot_line_dots(plot_t *p)
 {
     for (unsigned group = 0; group < p->n_groups; group++) {
-        const figure_style_t style = {
-                plot_colour(p, group), 1, plot_dot_size(p), false, false};
+        const figure_style_t style = {.colour = plot_colour(p, group),
+                .opacity = 1,
+                .size = plot_dot_size(p)};
 
         figure_add(&p->figure, FIGURE_DOTS, style);
         for (uint32_t i = 0; i < p->n; i++) {
@@ -280,8 +281,8 @@ static void put_plane(plot_t *p, uint32_t z, double largest)
         const double mass = c->mass[z * c->count[0] * c->count[1] + i];
         const double x = x0 + width * (i % c->count[0]) / c->count[0];
         const double y = y0 - height * (i / c->count[0]) / c->count[1];
-        const figure_style_t style = {style_lobe.colour,
-                0.06 + 0.5 * pow(mass / largest, 0.6), 0, false, false};
+        const figure_style_t style = {.colour = style_lobe.colour,
+                .opacity = 0.06 + 0.5 * pow(mass / largest, 0.6)};
 
         if (mass > 0) {
             figure_box(&p->figure, FIGURE_AREA, style, x, y,

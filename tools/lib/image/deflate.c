@@ -460,7 +460,11 @@ static void take_blocks(reader_t *r)
 const char *deflate_unpack(const uint8_t *packed, size_t packed_size,
         uint8_t *data, size_t size, size_t *where)
 {
-    reader_t r = {packed, packed_size, 2, 0, 0, data, size, 0, NULL};
+    reader_t r = {.in = packed,
+            .in_size = packed_size,
+            .at = 2,
+            .out = data,
+            .out_size = size};
     uint32_t adler = 0;
 
     *where = 0;

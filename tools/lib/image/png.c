@@ -167,7 +167,7 @@ static const char *expand(const png_t *png, image_t *image)
 const char *png_decode(
         image_t *image, const uint8_t *data, size_t size, size_t *where)
 {
-    png_t png = {0, 0, 0, NULL, 0};
+    png_t png = {0};
     const char *error;
 
     *where = 0;
