@@ -16,6 +16,7 @@ static bool lens_valid(const ql_blob_lens_t *lens)
     }
     return true;
 }
+
 bool ql_blob_lens_open(ql_blob_parts_t *parts, ql_scene_t *scene)
 {
     scene->lens =

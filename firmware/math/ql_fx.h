@@ -48,13 +48,13 @@ typedef uint32_t ql_turn32_t;
 /* Products, by either file. Put together from halves, a product is 17
  * instructions: too many to insist on inlining.
  *
- *   ql_mulhi_u32(a, b)    high word of a product: floor(a b / 2^32)
- *   ql_mulhi_u32_rounded(a, b)  the same, to nearest: round(a b / 2^32)
- *   ql_mulhi_su32(a, b)   the high word of a signed and an unsigned number
- *   ql_product_u32(a, b)  the whole product of two 32-bit numbers
- *   ql_mul_uq31(a, b)     of two numbers in [0, 1], rounded half up; exact for
- *                         0 and 1
- *   ql_dot_s16_s32(..)    exact dot product of a 16-bit and a 32-bit vector, if
+ *   ql_mulhi_u32          high word of a product: floor(a b / 2^32)
+ *   ql_mulhi_u32_rounded  the same product to nearest: round(a b / 2^32)
+ *   ql_mulhi_su32         floor(a b / 2^32) of a signed a and an unsigned b
+ *   ql_product_u32        the whole product of two 32-bit numbers
+ *   ql_mul_uq31           product of two numbers in [0, 1], rounded half up;
+ *                         exact for 0 and 1
+ *   ql_dot_s16_s32        exact dot product of a 16-bit and a 32-bit vector, if
  *                         it is below 2^47
  */
 #if QL_PORT_WIDE_MUL

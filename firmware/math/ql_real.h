@@ -34,7 +34,7 @@ QL_INLINE ql_real_t ql_real_recip(ql_real_t a);
  */
 uint32_t ql_rsqrt_m(uint32_t m);
 
-/* The same as warps use it, by the user's choice of tables.
+/* Reciprocal square root for warps, by the user's choice of tables.
  *
  *   m       -  as for ql_rsqrt_m()
  *   return  as of ql_rsqrt_m()
