@@ -45,6 +45,14 @@ $O/test/$1/%: $O/test/$1/tests/%.o $O/test/$1/support.a $O/test/$1/core.a \
 	$$(call step,LD,$$@)mkdir -p $$(@D) && $$(CC) $(config_$1) \
 	    $(call test_flags,$1) $$(LDFLAGS) $$(filter %.o %.a,$$^) \
 	    $$(filter %/support.a,$$^) -o $$@ $$(LDLIBS) -lm -lpthread
+
+# The same test, the same objects, with a seed from the environment.
+$O/test/$1/seeds/%: $O/test/$1/tests/%.o $O/test/$1/tests/seeds/other_seeds.o \
+    $O/test/$1/support.a $O/test/$1/core.a $O/flags/link
+	$$(call step,LD,$$@)mkdir -p $$(@D) && $$(CC) $(config_$1) \
+	    $(call test_flags,$1) $$(LDFLAGS) -Wl,--wrap=main \
+	    -Wl,--wrap=ql_sampler_begin $$(filter %.o %.a,$$^) \
+	    $$(filter %/support.a,$$^) -o $$@ $$(LDLIBS) -lm -lpthread
 endef
 all_configs := $(configs) fine-san draft-san
 $(foreach c,$(all_configs),$(eval $(call rules_of,$c)))
@@ -161,6 +169,15 @@ test-configs: ## Unit tests with every pair of gates, the core with every triple
 test-configs: $(programs_configs) $(programs_golden) $(golden_blobs)
 	$(call run,$(jobs_configs))
 
+# N seeds; ONLY is a part of the names of the programs, as test_bsdf.
+N ?= 4
+seeds := $(foreach c,fine draft,$(foreach t,$(unit) $(known),$(if $(findstring \
+    $(or $(ONLY),/),$(c)/$(t)),$O/test/$(c)/seeds/$(t))))
+
+test-seeds: ## Unit and known tests with N other seeds; ONLY=name for a few
+test-seeds: $(seeds) $O/cornell.qlb $O/mesh.qlb
+	@tests/seeds/run.sh $(N) $(seeds)
+
 test-mutants: ## Plant faults in the core, one by one: a test has to see each
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) \
 	    $$(tests/mutants/run.sh --needs)
@@ -184,4 +201,4 @@ golden-update: ## Rewrite the checksums of the golden pictures
 	tests/golden/run_matrix.sh --update
 
 .PHONY: test test-all test-quick test-known test-san test-configs test-mutants \
-    error-budget lint check format configs-update docs golden-update
+    test-seeds error-budget lint check format configs-update docs golden-update

@@ -128,6 +128,61 @@ double stats_normal_quantile(double p)
     return p < 0.5 ? -z : z;
 }
 
+double stats_z_limit(double comparisons)
+{
+    return -stats_normal_quantile(STATS_ALARM / 2 / comparisons);
+}
+
+/* Both tails beyond t: cos^(n - 2) of angles from atan(t / root(n - 1)) to a
+ * right angle, over that from 0, by Simpson's rule. */
+static double t_tails(double t, double replicates)
+{
+    enum { STEPS = 400 };
+    const double dof = replicates - 1, right = acos(0);
+    const double from = atan(t / sqrt(dof)), step = (right - from) / STEPS;
+    const double whole =
+            sqrt(acos(-1)) / 2 * exp(lgamma(dof / 2) - lgamma((dof + 1) / 2));
+    double sum = 0;
+
+    for (int i = 0; i < STEPS; i++) { /* the last is 0, but for dof 1 */
+        sum += (i == 0         ? 1
+                       : i % 2 ? 4
+                               : 2) *
+               pow(cos(from + i * step), dof - 1);
+    }
+    sum += dof == 1;
+    return sum * step / 3 / whole;
+}
+
+double stats_t_limit(double comparisons, double replicates)
+{
+    double low = 0, high = 1;
+
+    while (t_tails(high, replicates) > STATS_ALARM / comparisons) {
+        high *= 2;
+    }
+    while (high - low > 1e-6 * high) {
+        const double middle = (low + high) / 2;
+
+        if (t_tails(middle, replicates) > STATS_ALARM / comparisons) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
+double stats_mean_limit(
+        double comparisons, double n, double mean, double most, double variance)
+{
+    const double most_variance = fmin(variance, mean * (most - mean));
+    const double l = log(2 * comparisons / STATS_ALARM);
+    const double range = most * l / (3 * n);
+
+    return range + sqrt(range * range + 2 * most_variance * l / n);
+}
+
 double stats_ks_uniform(const double *sorted, size_t n)
 {
     double d = 0;
@@ -198,9 +253,11 @@ double stats_variance(const stats_moments_t *moments)
     return moments->n > 1 ? moments->m2 / (moments->n - 1) : 0;
 }
 
+uint64_t stats_seed;
+
 uint64_t stats_random(uint64_t *state)
 {
-    uint64_t x = *state += 0x9e3779b97f4a7c15u;
+    uint64_t x = (*state += 0x9e3779b97f4a7c15u) ^ stats_seed;
 
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
     x = (x ^ x >> 27) * 0x94d049bb133111ebu;

@@ -1,9 +1,18 @@
 /* ql_stats.h - p-values and moments for tests (double, host only) */
 /* SPDX-License-Identifier: MIT */
 
-/* Limits used with these p-values: seeds are fixed and every suite has about
- * fifty statistical claims, so a claim fails at p below STATS_P_MIN, which
- * makes a false alarm after an honest change of code one in a million. */
+/* How often a claim may fail though the program is right, with a seed that
+ * nobody chose: once in a million, STATS_ALARM. A claim of one comparison has
+ * STATS_P_MIN or STATS_Z_MAX for its limit; one of many divides the chance by
+ * their number (Bonferroni's inequality, so they need not be independent). The
+ * functions stats_.._limit() do that, each for a law of its own:
+ *
+ *   stats_z_limit()    normal, the standard deviation known
+ *   stats_t_limit()    a mean of few that are normal, and their own spread
+ *   stats_mean_limit() anything bounded, however rare its large values are
+ *
+ * A fault that a claim has to reject has to be beyond the limit by as much
+ * again, or chance decides whether it is: stats_.._limit() twice. */
 
 #ifndef QL_STATS_H
 #define QL_STATS_H
@@ -11,11 +20,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define STATS_P_MIN 2e-8
+#define STATS_ALARM 1e-6
 
-/* A point of the normal distribution beyond which both tails together hold
- * less than 1e-6: for moments with a known standard deviation. */
+/* For p-values of a suite of up to fifty comparisons. */
+#define STATS_P_MIN (STATS_ALARM / 50)
+
+/* stats_z_limit(1), rounded up. */
 #define STATS_Z_MAX 4.9
+
+/* |z| of one of so many normal values exceeds this with STATS_ALARM. */
+double stats_z_limit(double comparisons);
+
+/* |mean| in standard errors, by the spread of so many normal values of which it
+ * is the mean (Student's t); exceeded as above. replicates >= 2. */
+double stats_t_limit(double comparisons, double replicates);
+
+/* How far the mean of n independent values in [0, most] may be off what it
+ * should be, mean (Bernstein's inequality). Their variance need not be known:
+ * it is mean (most - mean) at most; variance may be less, or INFINITY. */
+double stats_mean_limit(double comparisons, double n, double mean, double most,
+        double variance);
 
 /* Regularised upper incomplete gamma function Q(a, x); a > 0, x >= 0.
  * Relative error below 1e-10 where the result exceeds 1e-300. */
@@ -64,6 +88,20 @@ void stats_add(stats_moments_t *moments, double value);
 
 /* Unbiased variance of what was added; 0 for fewer than two values. */
 double stats_variance(const stats_moments_t *moments);
+
+/* 0, or another number that changes everything drawn below, and all samplers:
+ * of tests/seeds. */
+extern uint64_t stats_seed;
+
+/* RUN() for a claim about the numbers of one seed: with no other. */
+#define RUN_AS_SEEDED(claim)                                                   \
+    do {                                                                       \
+        const uint64_t before = stats_seed;                                    \
+                                                                               \
+        stats_seed = 0;                                                        \
+        RUN(claim);                                                            \
+        stats_seed = before;                                                   \
+    } while (0)
 
 /* The next 64 random bits (SplitMix64); any state will do to begin. */
 uint64_t stats_random(uint64_t *state);

@@ -298,9 +298,21 @@ static inline estimate_t estimate(value_t value, uint32_t count)
     return r;
 }
 
-/* Four standard errors; where there is next to no variance, the formats: of
- * lengths, and of how far rounding moved the direction it is seen from. */
-#define WITHIN(e) (4 * (e).error + DRAWN_ERROR + 2 * ROUNDED)
+/* Means compared in one program, at most. */
+enum { COMPARISONS = 200 };
+
+/* How many standard errors of replicates a mean may be off. */
+static inline double errors_max(void)
+{
+    static double limit;
+
+    limit = limit > 0 ? limit : stats_t_limit(COMPARISONS, REPLICATES);
+    return limit;
+}
+
+/* Standard errors; where there is next to no variance, the formats: of lengths,
+ * and of how far rounding moved the direction it is seen from. */
+#define WITHIN(e) (errors_max() * (e).error + DRAWN_ERROR + 2 * ROUNDED)
 
 static ql_density_t density;
 static unsigned colour; /* channel looked at */

@@ -256,9 +256,9 @@ TEST(light_and_directions_and_both_have_the_same_mean)
             both = estimate(by_both, 512);
             least = fmin(least, light.mean);
             CHECK(fabs(light.mean - brdf.mean) <=
-                                    WITHIN(light) + 4 * brdf.error &&
+                                    WITHIN(light) + errors_max() * brdf.error &&
                             fabs(light.mean - both.mean) <=
-                                    WITHIN(light) + 4 * both.error,
+                                    WITHIN(light) + errors_max() * both.error,
                     "n = %g, cap %d: %.6f +- %.6f, %.6f +- %.6f, %.6f +- %.6f",
                     exponents[i], k, light.mean, light.error, brdf.mean,
                     brdf.error, both.mean, both.error);
@@ -276,7 +276,8 @@ TEST(a_density_without_the_chance_is_rejected)
     density_scale = 2;
     light = estimate(by_light, 512);
     both = estimate(by_both, 512);
-    CHECK(fabs(light.mean - both.mean) > WITHIN(light) + 4 * both.error,
+    CHECK(fabs(light.mean - both.mean) >
+                    WITHIN(light) + errors_max() * both.error,
             "%.6f +- %.6f, %.6f +- %.6f", light.mean, light.error, both.mean,
             both.error);
     NOTE("%.4f, not %.4f", both.mean, light.mean);

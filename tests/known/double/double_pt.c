@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support/ql_stats.h"
+
 #define PI      3.14159265358979323846
 #define EPSILON 1e-4 /* scene units; the Cornell box is 550 wide */
 
@@ -62,7 +64,7 @@ typedef struct {
 
 static void rng_seed(rng_t *rng, uint64_t seed)
 {
-    seed += 0x9e3779b97f4a7c15u;
+    seed = (seed + 0x9e3779b97f4a7c15u) ^ stats_seed;
     seed = (seed ^ seed >> 30) * 0xbf58476d1ce4e5b9u;
     seed = (seed ^ seed >> 27) * 0x94d049bb133111ebu;
     rng->state = (seed ^ seed >> 31) | 1u;
