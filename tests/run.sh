@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 #
 # usage: tests/run.sh [--shuffle SEED] JOBS; logs go to $BUILD/test/log, BUILD
-#        being build
+#        being build; "name seconds claims" of every job to $BUILD/test/log.cost
 #   JOBS            a file of lines "name|command"; each command prints claims
 #                   as "suite  claim_in_words  ok|FAIL  note" and exits non-zero
 #                   on a failure
@@ -37,12 +37,20 @@ cpu_of() # NAME
     esac
 }
 
+# FILE, by `times`: user and system time of what has ended, in seconds.
+cpu_in()
+{
+    awk 'NR == 2 {
+            split($1 "m" $2, t, "m")
+            printf "%.1f", t[1] * 60 + t[2] + t[3] * 60 + t[4]
+        }' "$1"
+}
+
 # NAME COMMAND
 run_job()
 {
     log=$logs/$(printf %s "$1" | tr '/ ' '_-')
     suite=$(printf %s "$1" | tr ' ' '_')
-    start=$(date +%s)
     tools/dev/limit.sh --cpu "$(cpu_of "$1")" --idle "${JOB_IDLE:-300}" \
         sh -c "$2" > "$log.tmp" 2>&1 < /dev/null
     status=$?
@@ -63,7 +71,13 @@ run_job()
     # A line of its own, though the job may have died within one.
     [ -z "$fault" ] || printf '\n%s %s\n' "$suite" "$fault" >> "$log.tmp"
     mv "$log.tmp" "$log.log"
-    printf '%s  (%s s)\n' "$1" "$(($(date +%s) - start))"
+    times > "$log.times"
+    cpu=$(cpu_in "$log.times")
+    rm "$log.times"
+    awk -v name="$1" -v cpu="$cpu" '
+        $3 == "ok" || $3 == "FAIL" { claims++ }
+        END { print name, cpu, claims + 0 }' "$log.log" >> "$logs.cost"
+    printf '%s  (%s s)\n' "$1" "$cpu"
     cat "$log.log"
 }
 
@@ -101,7 +115,7 @@ if [ $# -ne 1 ] || [ ! -r "$jobs_file" ]; then
     exit 2
 fi
 
-rm -rf "$logs" "$logs.tmp"
+rm -rf "$logs" "$logs.tmp" "$logs.cost"
 mkdir -p "$logs" "$logs.tmp" || exit 3
 unset CDPATH POSIXLY_CORRECT
 TMPDIR=$(cd "$logs.tmp" && pwd)

@@ -11,9 +11,11 @@ sanitize := -fsanitize=address,undefined -fno-sanitize-recover=all
 config_fine-san := $(config_fine) $(sanitize)
 config_draft-san := $(config_draft) $(sanitize)
 
-# The many others are compiled for unit tests only, and in less time.
+# The many others are compiled for unit tests only, and in less time. They try
+# fewer random inputs; what they draw is compared bit for bit.
 full := fine draft fine-san draft-san
-test_flags = -Werror $(if $(filter $(full),$(1)),-O2 -g,-O1 -g0)
+test_flags = -Werror $(if $(filter $(full),$(1)),-O2 -g,-O1 -g0) \
+    $(if $(filter fine draft,$(1)),,-DQL_TEST_SHARE=8)
 test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
     $(wildcard sim/sim_hal.c sim/sim_fault.c firmware/app/*.c)
 support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \
@@ -134,7 +136,9 @@ endef
 
 test: ## Run everything, on this PC and on every emulated board
 	@tools/dev/setup.sh
-	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) test-all
+	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) test-all; \
+	    status=$$?; mkdir -p $O/test && times > $O/test/make.times; \
+	    exit $$status
 
 test-all: $(programs) $O/test/fine/tools/stream_main $O/cornell.qlb \
     $O/mesh.qlb \

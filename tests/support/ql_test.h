@@ -57,6 +57,14 @@ static struct {
     (ql_test.suite = (suite_name), ql_test.program = (argv)[0],                \
             ql_test.only = (argc) > 1 ? (argv)[1] : "")
 
+/* How many of n random inputs are tried. The two builds of everything try all;
+ * those of other gates, and those with sanitizers, one in QL_TEST_SHARE: the
+ * gates change no bit of what is drawn, which tests/golden/some.sh shows. */
+#ifndef QL_TEST_SHARE
+#define QL_TEST_SHARE 1
+#endif
+#define MANY(n) ((n) / QL_TEST_SHARE)
+
 #define RUN(claim) ql_test_run(#claim, test_##claim)
 
 /* A claim that is not true of every build: of which, the condition says. */

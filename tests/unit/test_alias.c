@@ -10,7 +10,7 @@
 #include "sample/ql_table.h"
 #include "lib/math/build_table.h"
 
-enum { COUNT_MAX = 65535, VECTORS = 3000, DRAWS = 1 << 20 };
+enum { COUNT_MAX = 65535, VECTORS = 3000, DRAWS = MANY(1 << 20) };
 
 static uint32_t words[COUNT_MAX * QL_ALIAS_WORDS];
 static uint32_t weights[COUNT_MAX];

@@ -14,7 +14,7 @@
 #include "support/ql_test.h"
 #include "qlux.h"
 
-enum { DAMAGED = 20000 };
+enum { DAMAGED = MANY(20000) };
 
 static mini_scene_t mini;
 static uint64_t state;

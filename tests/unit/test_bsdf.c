@@ -88,7 +88,7 @@ TEST(densities_are_those_of_the_lobe_drawn)
     set_phong(0.5, 0.4, n, chance);
     set_normal(tilted);
     state = 6;
-    for (long k = 0; k < 100000; k++) {
+    for (long k = 0; k < MANY(100000); k++) {
         const uint64_t bits = stats_random(&state);
         const ql_uniform2_t u = {(uint32_t)bits, (uint32_t)(bits >> 32)};
         const bool special = k & 1;
@@ -293,7 +293,7 @@ TEST(a_density_without_the_chance_is_rejected)
  * rounding goes, nothing is lost or lands on the plane. */
 static void check_grazing(long *reflected_count, long *through)
 {
-    for (long k = 0; k < 60000; k++) {
+    for (long k = 0; k < MANY(60000); k++) {
         const ql_uniform2_t u = {0, 0};
         ql_bsdf_sample_t sample;
         ql_real_t pdf, *const asked = QL_CFG_STRATEGIES ? &pdf : NULL;
@@ -333,7 +333,7 @@ TEST(grazing_rays_are_never_lost)
     (void)set_glass(1.5);
     check_grazing(&reflected_count, &through);
 #endif
-    CHECK(reflected_count > 10000, "%ld", reflected_count);
+    CHECK(reflected_count > MANY(10000), "%ld", reflected_count);
     NOTE("%ld reflected, %ld through", reflected_count, through);
 }
 

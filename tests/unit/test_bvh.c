@@ -15,8 +15,8 @@
 enum {
     LOW = QL_GRID_MARGIN,
     HIGH = QL_GRID_MAX - QL_GRID_MARGIN,
-    BRUTE_RAYS = 100000,
-    WATERTIGHT_RAYS = 200000,
+    BRUTE_RAYS = MANY(100000),
+    WATERTIGHT_RAYS = MANY(200000),
 
     /* what a tree of as many levels as the core's stack can hold */
     SOUP = QL_CFG_BVH_STACK < 8 ? 150 : 500,
@@ -416,7 +416,7 @@ TEST(of_equal_triangles_the_lowest_index_wins)
         }
         mini_open(&mini, &scene);
         state = 37;
-        for (long i = 0; i < 20000; i++) {
+        for (long i = 0; i < MANY(20000); i++) {
             ql_vec3_t to;
             ql_ray_t ray = random_ray(0, &to);
             ql_hit_t hit;

@@ -18,7 +18,7 @@ TEST(diffuse_directions_and_weights_are_the_old_bits)
 {
     state = 1;
     set_albedo(0.3, 1, 0.7);
-    for (long k = 0; k < 200000; k++) {
+    for (long k = 0; k < MANY(200000); k++) {
         const uint64_t bits = stats_random(&state);
         ql_uniform2_t u = {(uint32_t)bits, (uint32_t)(bits >> 32)};
         ql_bsdf_sample_t sample;
@@ -108,7 +108,7 @@ TEST(diffuse_density_is_the_cosine_over_pi)
 
     state = 3;
     set_albedo(1, 1, 1);
-    for (long k = 0; k < 200000; k++) {
+    for (long k = 0; k < MANY(200000); k++) {
         const uint64_t bits = stats_random(&state);
         ql_uniform2_t u = {(uint32_t)bits, (uint32_t)(bits >> 32)};
         ql_bsdf_sample_t sample;

@@ -83,7 +83,7 @@ TEST(points_are_within_half_a_unit)
     for (unsigned i = 0; i < 512; i++) {
         check_point(ends[i & 7], ends[i >> 3 & 7], ends[i >> 6]);
     }
-    for (long i = 0; i < 500000; i++) {
+    for (long i = 0; i < MANY(500000); i++) {
         const uint64_t bits = stats_random(&state);
 
         check_point((uint32_t)stats_random(&state), (uint32_t)bits,

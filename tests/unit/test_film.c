@@ -63,7 +63,7 @@ TEST(contributions_are_rounded_half_up)
     uint64_t state = 1;
 
     for (int e = -80; e < -18; e++) {
-        for (long i = 0; i < 20000; i++) {
+        for (long i = 0; i < MANY(20000); i++) {
             ql_real_t scale;
 
             scale.m = (uint32_t)stats_random(&state) | 0x80000000u;
@@ -140,7 +140,7 @@ TEST(small_values_of_large_scale_are_not_cut_at_the_limit)
     uint64_t state = 2;
 
     for (int e = -18; e < 8; e++) {
-        for (long i = 0; i < 20000; i++) {
+        for (long i = 0; i < MANY(20000); i++) {
             ql_real_t scale;
 
             scale.m = (uint32_t)stats_random(&state) | 0x80000000u;
@@ -311,7 +311,7 @@ TEST(means_are_within_their_bound)
     uint64_t state = 4;
 
     display_worst = 0;
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const uint32_t samples = 1 + stats_random_below(&state, 1ul << 24);
         ql_real_t exposure;
         ql_uq16_t linear[3];

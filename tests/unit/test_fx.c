@@ -8,7 +8,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 
-enum { RANDOM_PAIRS = 4000000 };
+enum { RANDOM_PAIRS = MANY(4000000) };
 
 static uint64_t state;
 
@@ -239,7 +239,7 @@ TEST(long_division_by_16_bits_equals_64_bit_division)
 
     state = 4;
     for (size_t k = 0; k < sizeof by / sizeof by[0]; k++) {
-        for (long i = 0; i < 200000; i++) {
+        for (long i = 0; i < MANY(200000); i++) {
             const bool nasty = i < (long)(NASTY_COUNT * NASTY_COUNT);
             const uint64_t bits =
                     nasty ? (uint64_t)nasty32[(size_t)i % NASTY_COUNT] << 32 |

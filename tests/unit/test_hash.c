@@ -53,7 +53,7 @@ static uint32_t unfinished(uint32_t x)
     return x * 0x846ca68bu;
 }
 
-enum { AVALANCHE_COUNT = 1 << 18 };
+enum { AVALANCHE_COUNT = MANY(1 << 18) };
 
 typedef struct {
     double rms; /* bias of a cell, 0 for an ideal hash */

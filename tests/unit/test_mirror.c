@@ -13,7 +13,7 @@ TEST(mirrors_reflect_at_equal_angles)
     state = 7;
     set_albedo(0, 0, 0);
     set_gloss(QL_GLOSS_MIRROR, 1, 0, 1);
-    for (long k = 0; k < 100000; k++) {
+    for (long k = 0; k < MANY(100000); k++) {
         const ql_uniform2_t u = {(uint32_t)k, 7};
         ql_vec3_t incoming;
         point_t in;
@@ -84,7 +84,7 @@ TEST(smooth_mirrors_have_no_black_rim)
     state = 8;
     set_albedo(0, 0, 0);
     set_gloss(QL_GLOSS_MIRROR, 1, 0, 1);
-    for (long k = 0; k < 100000; k++) {
+    for (long k = 0; k < MANY(100000); k++) {
         const ql_uniform2_t u = {0, 0};
         ql_vec3_t incoming;
         point_t in, axis, shade;

@@ -10,7 +10,7 @@
 #include "support/ql_test.h"
 
 /* Odd, so the mantissas that are tried differ in all their low bits. */
-enum { STRIDE = 61 };
+enum { STRIDE = (61 * QL_TEST_SHARE) | 1 };
 
 #define ULP (1 / 4294967296.0) /* of u0.32 */
 
@@ -97,7 +97,7 @@ static void check_sqrt(uint32_t x)
 TEST(square_root_is_within_its_bound)
 {
     sqrt_worst = 0;
-    for (uint32_t x = 0; x < 1000000; x++) {
+    for (uint32_t x = 0; x < MANY(1000000); x++) {
         check_sqrt(x);
         check_sqrt(0xffffffffu - x);
     }
@@ -147,7 +147,7 @@ TEST(whole_numbers_become_reals_cut_below_one_ulp)
 {
     uint64_t state = 1;
 
-    for (uint64_t n = 0; n < 1000000; n++) {
+    for (uint64_t n = 0; n < MANY(1000000); n++) {
         check_from(n);
         check_from(UINT64_MAX - n);
     }
@@ -156,7 +156,7 @@ TEST(whole_numbers_become_reals_cut_below_one_ulp)
         check_from(((uint64_t)1 << k) - 1);
         check_from(((uint64_t)1 << k) + 1);
     }
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const uint64_t n = stats_random(&state);
 
         check_from(n >> (stats_random(&state) & 63u));
@@ -195,7 +195,7 @@ TEST(products_of_reals_are_cut_below_two_ulp)
         }
     }
     check_mul(0, 0);
-    for (long i = 0; i < 2000000; i++) {
+    for (long i = 0; i < MANY(2000000); i++) {
         const uint64_t bits = stats_random(&state);
 
         check_mul((uint32_t)bits | 0x80000000u,
@@ -210,7 +210,7 @@ TEST(reciprocal_of_a_real_is_normal_and_of_zero_is_zero)
 
     CHECK(ql_real_recip(zero).m == 0, "1/0 has mantissa %08lx",
             (unsigned long)ql_real_recip(zero).m);
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const uint32_t m = (i < 65536 ? (uint32_t)i * 0x8000u + 0x80000000u
                                       : (uint32_t)stats_random(&state)) |
                            0x80000000u;
@@ -287,7 +287,7 @@ TEST(products_and_quotients_as_calls_are_the_same)
     uint64_t state = 7;
     long double worst = 0;
 
-    for (long i = 0; i < 500000; i++) {
+    for (long i = 0; i < MANY(500000); i++) {
         const ql_real_t a = random_real(&state, 90);
         const ql_real_t b = random_real(&state, 90);
         const ql_real_t product = ql_real_mul(a, b);
@@ -313,7 +313,7 @@ TEST(sums_of_reals_are_within_2_to_the_minus_30)
     uint64_t state = 4;
     long double worst = 0;
 
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const ql_real_t a = random_real(&state, 20);
         const ql_real_t b = random_real(&state, i & 1 ? 20 : 60);
         const ql_real_t r = ql_real_add(a, b);
@@ -335,7 +335,7 @@ TEST(differences_of_reals_are_within_an_ulp_of_the_first)
     const ql_real_t zero = {0, 90};
     uint64_t state = 5;
 
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const ql_real_t a = random_real(&state, 20);
         ql_real_t b = random_real(&state, i & 1 ? 20 : 60);
         long double exact, got;
@@ -359,7 +359,7 @@ TEST(midpoints_are_exact_below_a_half_and_cut_above)
 {
     uint64_t state = 6;
 
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const uint64_t bits = stats_random(&state);
         const uint32_t u = i < 1000   ? (uint32_t)i
                            : i < 2000 ? 0u - (uint32_t)(i - 999)

@@ -60,7 +60,7 @@ TEST(scaling_is_within_half_an_ulp_of_2_to_the_minus_30)
     uint64_t state = 1;
     double worst = 0;
 
-    for (long k = 0; k < 1000000; k++) {
+    for (long k = 0; k < MANY(1000000); k++) {
         const ql_rgb_t a = random_rgb(&state);
         const ql_real_t by = random_real(&state);
         ql_rgb_t r = a;
@@ -89,7 +89,7 @@ TEST(scaling_rounds_without_bias)
     uint64_t state = 2;
     stats_moments_t error = {0, 0, 0}, cut = {0, 0, 0};
 
-    for (long k = 0; k < 300000; k++) {
+    for (long k = 0; k < MANY(300000); k++) {
         const uint64_t bits = stats_random(&state);
         const ql_real_t by = random_real(&state);
         ql_rgb_t r = {{(uint32_t)bits | 0x80000000u, 0, 0}, 0};
@@ -111,7 +111,7 @@ TEST(scaling_by_powers_of_two_is_exact_below_2_to_the_31)
 {
     uint64_t state = 3;
 
-    for (long k = 0; k < 200000; k++) {
+    for (long k = 0; k < MANY(200000); k++) {
         ql_rgb_t a = random_rgb(&state), r;
         ql_real_t by = {0x80000000u, 0};
 
@@ -148,7 +148,7 @@ TEST(products_are_within_half_an_ulp_of_2_to_the_minus_30)
     uint64_t state = 7;
     double worst = 0;
 
-    for (long k = 0; k < 1000000; k++) {
+    for (long k = 0; k < MANY(1000000); k++) {
         const ql_rgb_t a = random_rgb(&state), b = random_rgb(&state);
         ql_rgb_t r = a, other = b;
 
@@ -173,7 +173,7 @@ TEST(products_with_gray_powers_of_two_are_exact_below_2_to_the_31)
 {
     uint64_t state = 8;
 
-    for (long k = 0; k < 200000; k++) {
+    for (long k = 0; k < MANY(200000); k++) {
         ql_rgb_t a = random_rgb(&state), r;
         const uint32_t c = (uint32_t)1 << (k & 31);
         const ql_rgb_t by = {{c, c, c}, (int16_t)(k % 50 - 25)};
@@ -196,7 +196,7 @@ TEST(sums_are_within_an_ulp_of_2_to_the_minus_30)
     uint64_t state = 4;
     double worst = 0;
 
-    for (long k = 0; k < 1000000; k++) {
+    for (long k = 0; k < MANY(1000000); k++) {
         const ql_rgb_t a = random_rgb(&state);
         ql_rgb_t b = random_rgb(&state), r = a, other;
 
@@ -223,7 +223,7 @@ TEST(sums_with_zero_are_exact)
 {
     uint64_t state = 5;
 
-    for (long k = 0; k < 100000; k++) {
+    for (long k = 0; k < MANY(100000); k++) {
         const ql_rgb_t a = random_rgb(&state);
         ql_rgb_t zero = {{0, 0, 0}, (int16_t)(k % 100)}, r = a;
 
@@ -279,7 +279,7 @@ TEST(filters_round_to_nearest_and_keep_1)
 {
     uint64_t state = 6;
 
-    for (long k = 0; k < 300000; k++) {
+    for (long k = 0; k < MANY(300000); k++) {
         const ql_rgb_t a = random_rgb(&state);
         uint32_t by[3], raw[3];
         ql_rgb_t r = a;

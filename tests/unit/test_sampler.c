@@ -70,7 +70,7 @@ TEST(a_pixel_begins_at_sample_zero)
 TEST(one_number_is_the_first_of_its_pair)
 {
     for (unsigned k = 0; k < sizeof kinds; k++) {
-        for (uint32_t i = 0; i < 100000; i++) {
+        for (uint32_t i = 0; i < MANY(100000); i++) {
             ql_sampler_t sampler;
 
             ql_sampler_begin(&sampler, kinds[k], i, 9, 11);

@@ -9,7 +9,7 @@ TEST(cosines_are_within_their_bounds)
     double worst = 0, smooth = 0;
 
     state = 2;
-    for (long k = 0; k < 300000; k++) {
+    for (long k = 0; k < MANY(300000); k++) {
         const int32_t most = 0x1fffffff >> stats_random_below(&state, 25);
         const ql_vec3_t w = random_vec(most);
         double exact, got;

@@ -19,7 +19,11 @@
 #define ANGLE_ERROR   BY_TABLES(QL_CFG_PRECISION == 0 ? 4e-5 : 9e-8)
 #define INVERSE_ERROR 0x1p-26
 
-enum { CELLS_MAX = 4096, SAMPLES = 1 << 16, CHI2_SAMPLES = 1 << 18 };
+enum {
+    CELLS_MAX = 4096,
+    SAMPLES = MANY(1 << 16),
+    CHI2_SAMPLES = MANY(1 << 18)
+};
 
 static const double pi = 3.14159265358979323846;
 
@@ -216,7 +220,7 @@ TEST(directions_are_looked_up_where_their_angles_say)
     state = 1;
     for (int s = 0; s < SIZES; s++) {
         random_map(sizes[s].width, sizes[s].height, sizes[s].degrees);
-        for (long i = 0; i < 30000; i++) {
+        for (long i = 0; i < MANY(30000); i++) {
             skipped += check_lookup(random_vector(29));
             skipped += check_lookup(random_vector(i & 1 ? 15 : 22));
             tried += 2;
@@ -463,7 +467,7 @@ TEST(radiance_over_density_adds_up_to_the_integral)
             exact += total(QL_LE32(map.texels[i].rgb9e5)) *
                      texel_area(i / map.width);
         }
-        for (uint32_t i = 0; i < SAMPLES; i++) {
+        for (uint32_t i = 0; i < 65536; i++) {
             const uint64_t bits = stats_random(&state);
             ql_uq32_t e[3];
             ql_vec3_t w;

@@ -17,7 +17,7 @@
 enum {
     LOW = QL_GRID_MARGIN,
     HIGH = QL_GRID_MAX - QL_GRID_MARGIN,
-    RAYS = 100000
+    RAYS = MANY(100000)
 };
 
 /* What ql_surface.h says. */

@@ -30,7 +30,7 @@ TEST(bits_reverse)
     }
     CHECK(ql_reverse32(0x12345678u) == 0x1e6a2c48u, "%08lx",
             (unsigned long)ql_reverse32(0x12345678u));
-    for (uint32_t i = 0; i < 1000000; i++) {
+    for (uint32_t i = 0; i < MANY(1000000); i++) {
         CHECK(ql_reverse32(ql_reverse32(i * 4099)) == i * 4099, "%lu",
                 (unsigned long)i);
     }
@@ -101,7 +101,7 @@ TEST(high_bits_of_a_scramble_depend_on_high_bits_only)
     unsigned long count = 0;
 
     for (unsigned k = 1; k < 32; k++) {
-        for (unsigned i = 0; i < 20000; i++) {
+        for (unsigned i = 0; i < MANY(20000); i++) {
             const uint32_t x = (uint32_t)stats_random(&state);
             const uint32_t other = (uint32_t)stats_random(&state) >> k;
             const uint32_t seed = (uint32_t)(stats_random(&state) >> 32);

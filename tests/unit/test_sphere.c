@@ -18,7 +18,7 @@
 enum {
     LOW = QL_GRID_MARGIN,
     HIGH = QL_GRID_MAX - QL_GRID_MARGIN,
-    RAYS = 200000,
+    RAYS = MANY(200000),
     SPHERES = 1000,
     DIRECTIONS = 1000,
     UNIT = 256 / ONE, /* of a position, in those of a sphere */
@@ -766,7 +766,7 @@ TEST(spheres_and_triangles_in_a_tree_equal_brute_force)
         ql_scene_t scene;
 
         build_balls(bits, &scene);
-        for (long i = 0; i < 20000; i++) {
+        for (long i = 0; i < MANY(20000); i++) {
             const unsigned s = (unsigned)random_in(0, BALLS - 1);
             ql_hit_t hit, brute = {0, false, 0};
             ql_ray_t ray;
@@ -795,7 +795,7 @@ TEST(spheres_and_triangles_in_a_tree_equal_brute_force)
             CHECK(got == want, "%u bits, segment %ld: %d", bits, i, got);
         }
     }
-    CHECK(balls > 5000, "only %lu hits of spheres", balls);
+    CHECK(balls > MANY(5000), "only %lu hits of spheres", balls);
     NOTE("%lu hits, %lu of spheres; %lu blocked", hits, balls, blocked);
 }
 

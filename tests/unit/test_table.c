@@ -8,7 +8,7 @@
 #include "sample/ql_table.h"
 #include "lib/math/build_table.h"
 
-enum { CELLS_MAX = 65536, WORDS_MAX = 2 * CELLS_MAX, DRAWS = 1 << 20 };
+enum { CELLS_MAX = 65536, WORDS_MAX = 2 * CELLS_MAX, DRAWS = MANY(1 << 20) };
 
 static double weights[CELLS_MAX];
 static uint32_t shares[CELLS_MAX];
@@ -394,8 +394,8 @@ static double p_of(const ql_table_t *table, bool tested, fault_t fault)
             cell[d] = (uint16_t)(rest % (2u * table->count[d]) / 2);
             rest /= 2u * table->count[d];
         }
-        expected[bin] = ldexp((double)ql_table_mass(table, cell),
-                20 - 16 * (int)dims - (int)dims);
+        expected[bin] = ldexp(DRAWS * (double)ql_table_mass(table, cell),
+                -16 * (int)dims - (int)dims);
     }
     chi2 = stats_chi2(hits, expected, cells << dims, &dof);
     return isinf(chi2) ? 0 : stats_chi2_p(chi2, dof);

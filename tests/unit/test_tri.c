@@ -224,7 +224,7 @@ TEST(random_rays_equal_the_oracle)
 {
     state = 1;
     rays = hits = 0;
-    for (long i = 0; i < 300000; i++) {
+    for (long i = 0; i < MANY(300000); i++) {
         random_triangle();
         (void)check_to(random_position(), random_position());
         (void)check_to(random_position(), aim());
@@ -267,7 +267,7 @@ TEST(directions_with_zero_components_equal_the_oracle)
 {
     state = 2;
     rays = hits = 0;
-    for (long i = 0; i < 200000; i++) {
+    for (long i = 0; i < MANY(200000); i++) {
         ql_vec3_t to;
         ql_vec3_t from;
 
@@ -321,7 +321,7 @@ TEST(rays_exactly_through_corners_and_edges_hit)
 {
     state = 3;
     rays = hits = 0;
-    for (long i = 0; i < 200000; i++) {
+    for (long i = 0; i < MANY(200000); i++) {
         ql_vec3_t a, at, from;
         ql_ray_t ray;
 
@@ -354,7 +354,7 @@ TEST(rays_in_the_plane_never_hit)
 {
     state = 4;
     rays = hits = 0;
-    for (long i = 0; i < 200000; i++) {
+    for (long i = 0; i < MANY(200000); i++) {
         ql_vec3_t a, b, c, p, q;
         ql_ray_t ray;
 
@@ -386,7 +386,7 @@ TEST(rays_that_start_on_the_triangle_or_beyond_it_miss)
 {
     state = 5;
     rays = hits = 0;
-    for (long i = 0; i < 100000; i++) {
+    for (long i = 0; i < MANY(100000); i++) {
         ql_vec3_t a, at, from;
         ql_ray_t ray;
 
@@ -407,7 +407,7 @@ TEST(triangles_without_area_are_never_hit)
 {
     state = 6;
     rays = hits = 0;
-    for (long i = 0; i < 100000; i++) {
+    for (long i = 0; i < MANY(100000); i++) {
         const ql_vec3_t a = random_corner(),
                         step = vec(random_in(-99, 99), random_in(-99, 99),
                                 random_in(-99, 99));
@@ -438,7 +438,7 @@ TEST(turning_the_corners_around_turns_the_side_and_nothing_else)
     unsigned long turned = 0;
 
     state = 7;
-    for (long i = 0; i < 200000; i++) {
+    for (long i = 0; i < MANY(200000); i++) {
         ql_vec3_t c[3];
         ql_ray_t ray;
         uint64_t det[6] = {0}, t[6] = {0};

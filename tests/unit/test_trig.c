@@ -227,7 +227,7 @@ TEST(angles_of_points_are_within_2_to_the_minus_30_of_a_turn)
             }
         }
     }
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const uint64_t bits = stats_random(&state);
         const unsigned down = (unsigned)stats_random_below(&state, 1024);
 
@@ -235,7 +235,7 @@ TEST(angles_of_points_are_within_2_to_the_minus_30_of_a_turn)
                 ql_asr32(ql_i32((uint32_t)(bits >> 32)), down >> 5));
     }
     /* a fine circle, and both sides of every diagonal and axis */
-    for (uint32_t i = 0; i < 400000; i++) {
+    for (uint32_t i = 0; i < MANY(400000); i++) {
         const double angle = ldexp(i * 10737u + 0.5, -32) * 2 * (double)pi;
 
         check_atan2((int32_t)lrint(ldexp(sin(angle), 30)),

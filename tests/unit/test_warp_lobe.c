@@ -17,7 +17,12 @@
 #define NAIVE_ERROR  BY_TABLES(QL_CFG_PRECISION == 0 ? 4.5e-5 : 5e-9)
 #define FRAME_ERROR  6e-9
 
-enum { SAMPLES = 1 << 20, ROWS = 16, COLUMNS = 32, BINS = ROWS * COLUMNS };
+enum {
+    SAMPLES = MANY(1 << 20),
+    ROWS = 16,
+    COLUMNS = 32,
+    BINS = ROWS * COLUMNS
+};
 
 /* A direction, and 1 - z where it is known better than from z. */
 typedef struct {
@@ -361,7 +366,7 @@ TEST(cosine_lobe_is_the_cosine_hemisphere_about_z)
     uint64_t state = 7;
     double worst = 0;
 
-    for (long i = 0; i < 500000; i++) {
+    for (long i = 0; i < MANY(500000); i++) {
         const uint64_t bits = stats_random(&state);
         const uint32_t u1 = (uint32_t)bits, u2 = (uint32_t)(bits >> 32);
         const point_t a = cosine(u1, u2);
@@ -498,7 +503,7 @@ TEST(power_lobe_is_within_its_error_of_the_exact_s)
     uint64_t state = 9;
     double worst = 0;
 
-    for (uint32_t i = 0; i < 1000000; i++) {
+    for (uint32_t i = 0; i < MANY(1000000); i++) {
         const uint64_t bits = stats_random(&state);
         const uint32_t u1 =
                 i < 2 * ENDS ? ends[i / 2]
@@ -584,7 +589,7 @@ TEST(power_density_is_within_its_error)
     uint64_t state = 19;
     double worst = 0;
 
-    for (uint32_t i = 0; i < 300000; i++) {
+    for (uint32_t i = 0; i < MANY(300000); i++) {
         const uint64_t bits = stats_random(&state);
         const uint32_t q16 = (uint32_t)bits >> (bits >> 58 & 31);
         const uint32_t s =
@@ -767,7 +772,7 @@ TEST(cone_density_is_1_over_the_solid_angle)
     uint64_t state = 17;
 
     CHECK(fabs(got / 0.03149486152 - 1) < 0x1p-28 + 2e-10, "%.12f", got);
-    for (uint32_t k = 0; k < 200000; k++) {
+    for (uint32_t k = 0; k < MANY(200000); k++) {
         const ql_real_t s = {(uint32_t)stats_random(&state) | 0x80000000u,
                 (int16_t)(-32 - (int)stats_random_below(&state, 60))};
         const double is = real(ql_warp_cone_pdf(s)) * 2 * PI * real(s);
@@ -803,7 +808,7 @@ TEST(the_cone_of_a_sphere_keeps_its_relative_precision)
     for (double r = 1e-6; r < 0.999999; r *= 1.0001) {
         worst = fmax(worst, cone_error(real_of(r * r)));
     }
-    for (long i = 0; i < 500000; i++) {
+    for (long i = 0; i < MANY(500000); i++) {
         const uint32_t bits = (uint32_t)stats_random(&state);
         const ql_real_t wide = {
                 ~(bits >> stats_random_below(&state, 31) >> 1), -32};
@@ -878,7 +883,7 @@ TEST(frames_are_orthonormal_and_right_handed)
             check_frame(unit_q29(k & 4 ? 1 : -1, k & 2 ? 0 : 1, tiny));
         }
     }
-    for (long i = 0; i < 1000000; i++) {
+    for (long i = 0; i < MANY(1000000); i++) {
         const double z = 2 * stats_random_unit(&state) - 1;
         const double angle = 2 * PI * stats_random_unit(&state);
         const double rho = sqrt(1 - z * z);
@@ -923,7 +928,7 @@ TEST(frames_turn_local_directions_to_the_world)
     double worst = 0;
 
     set_power(8u << 16);
-    for (long i = 0; i < 200000; i++) {
+    for (long i = 0; i < MANY(200000); i++) {
         const uint64_t bits = stats_random(&state);
         const double z = 2 * stats_random_unit(&state) - 1;
         const double angle = 2 * PI * stats_random_unit(&state);

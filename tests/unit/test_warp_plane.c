@@ -12,7 +12,12 @@
 
 #define RADIUS_ERROR BY_TABLES(QL_CFG_PRECISION == 0 ? 2.1e-5 : 5.1e-8)
 
-enum { SAMPLES = 1 << 20, ROWS = 16, COLUMNS = 32, BINS = ROWS * COLUMNS };
+enum {
+    SAMPLES = MANY(1 << 20),
+    ROWS = 16,
+    COLUMNS = 32,
+    BINS = ROWS * COLUMNS
+};
 
 typedef struct {
     double x, y;
@@ -76,7 +81,7 @@ TEST(disk_is_the_concentric_map)
     uint64_t state = 5;
     double worst = 0, radius = 0;
 
-    for (uint32_t i = 0; i < 2000000 + ENDS * ENDS; i++) {
+    for (uint32_t i = 0; i < MANY(2000000) + ENDS * ENDS; i++) {
         const bool random = i >= ENDS * ENDS;
         const uint64_t bits = stats_random(&state);
         const uint32_t u1 = random ? (uint32_t)bits : ends[i % ENDS];

@@ -16,7 +16,7 @@ enum {
     ROWS = 16,
     COLUMNS = 32,
     BINS = ROWS * COLUMNS,
-    SAMPLES = 1 << 18,
+    SAMPLES = MANY(1 << 18),
     COMPONENT_MAX = (1 << 24) - 1
 };
 
@@ -282,7 +282,7 @@ TEST(solid_angles_are_within_their_error_between_the_thresholds)
     unsigned long taken[KINDS] = {0};
 
     state = 1;
-    for (long i = 0; i < 200000; i++) {
+    for (long i = 0; i < MANY(200000); i++) {
         const int kind = (int)(i % KINDS);
         const corners_t k = random_corners(kind);
         const long double exact = area_of_corners(k);
@@ -375,7 +375,7 @@ TEST(triangles_that_are_seen_edge_on_are_refused)
     ql_warp_spherical_t t;
 
     state = 2;
-    for (long i = 0; i < 20000; i++) {
+    for (long i = 0; i < MANY(20000); i++) {
         const ql_vec3_t a = random_vec(2000), b = random_vec(2000);
         const int32_t s = random_in(2000), r = random_in(2000);
         const ql_vec3_t c = vec(s * a.x + r * b.x, s * a.y + r * b.y,
@@ -410,7 +410,7 @@ TEST(an_octant_maps_as_its_closed_form)
                     fabsl(w.z - 0.33141357L) < SIDE_ERROR,
             "%.9Lf %.9Lf %.9Lf", w.x, w.y, w.z);
     state = 3;
-    for (long i = 0; i < 100000; i++) {
+    for (long i = 0; i < MANY(100000); i++) {
         const uint64_t bits = stats_random(&state);
         const uint32_t u1 = (uint32_t)bits, u2 = (uint32_t)(bits >> 32);
         const long double phi = ldexpl(u1 + 0.5L, -33) * pi / 2 * 2;
@@ -479,7 +479,7 @@ TEST(directions_are_unit_inside_and_where_arvo_has_them)
 
     state = 4;
     worst_share = worst_side = worst_length = worst_outside = 0;
-    for (long i = 0; i < 40000; i++) {
+    for (long i = 0; i < MANY(40000); i++) {
         const corners_t k = random_corners((int)(i % KINDS));
         ql_warp_spherical_t t;
         triangle_t exact;
@@ -506,7 +506,7 @@ TEST(corners_of_the_square_stay_inside_too)
 
     state = 5;
     worst_share = worst_side = worst_length = worst_outside = 0;
-    for (long i = 0; i < 2000; i++) {
+    for (long i = 0; i < MANY(2000); i++) {
         const corners_t k = random_corners((int)(i % KINDS));
         ql_warp_spherical_t t;
         triangle_t exact;
@@ -557,7 +557,7 @@ TEST(corners_keep_their_names_unless_an_edge_is_longer_than_120_degrees)
     unsigned long kept = 0, moved = 0;
 
     state = 7;
-    for (long i = 0; i < 60000; i++) {
+    for (long i = 0; i < MANY(60000); i++) {
         const corners_t k = random_corners((int)(i % KINDS));
         const point_t a = unit(from_int(k.a)), b = unit(from_int(k.b)),
                       c = unit(from_int(k.c));

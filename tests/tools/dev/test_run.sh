@@ -135,8 +135,20 @@ says locale_time_zone_and_umask_are_the_same_for_all 'world C,UTC,0022 ok'
 said 'input has_none ok' && said 'interrupt ends_one ok' &&
     said '3 passed, 0 failed' && [ $status -eq 0 ]
 say a_run_without_a_failure_says_so_and_succeeds $?
-[ "$(ls "$folder/test")" = log ]
-say nothing_but_logs_is_left $?
+[ "$(ls "$folder/test" | paste -s -d ' ' -)" = 'log log.cost' ]
+say nothing_but_logs_and_what_they_cost_is_left $?
+[ "$(cut -d ' ' -f 1,3 "$folder/test/log.cost" | sort | paste -s -d , -)" = \
+    'input 1,interrupt 1,world 1' ]
+say the_claims_of_every_job_are_counted_beside_its_seconds $?
+printf '%s 4.25 %s\n' fine/unit/a 12 fine/unit/b 3 lint/x 5 new/part 1 \
+    > "$folder/test/log.cost"
+printf '%s\n' '0m0.1s 0m0.1s' '1m40.5s 0m19.5s' > "$folder/test/make.times"
+BUILD=$folder tests/cost.sh > "$work/said" &&
+    said '| arithmetic and structures keep their bounds | 2 | 15 | 8 |' &&
+    said '| built before: programs, tests | | | 103 |' &&
+    said '| other | 1 | 1 | 4 |' && said '| all | 4 | 21 | 120 |'
+say costs_are_added_part_by_part $?
+rm "$folder/test/make.times"
 
 # ---- being ended
 
