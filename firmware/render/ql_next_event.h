@@ -19,7 +19,8 @@
  * from the vertex to the point, n the unit normal, N = e1 x e2 of the emitter:
  * reflected/pi Le cos cos' / r^2 divided by the pdf P/area, with the square
  * roots cancelled. Exactly zero if either side faces away.
- * Error: relative 2^-26 and the rounding of the sum; directions add 2^-27.
+ * Error: relative 2^-26 and the rounding of the sum; directions add 2^-27, a
+ *        sphere that is lit 2^-28.
  * Cost:  a shadow ray each, unless nothing can come from there.
  * From:  change of domain to the emitters' area.
  */

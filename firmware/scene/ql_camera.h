@@ -61,9 +61,11 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
  *           of what is seen there
  *
  * Error: origin within an ulp of its format in each component, direction within
- *        that of ql_vec_to_dir(). A point of the lens is that of
- *        ql_warp_plane_disk(), cut to 2^-15 grid units and to 2^-29 of a
- *        direction.
+ *        that of ql_vec_to_dir() and, before it, 6 2^-30 in each component: of
+ *        the picture's longest direction if that is above 1. So a lens that all
+ *        but cancels a direction turns it, as a lens of sense never does. A
+ *        point of the lens is that of ql_warp_plane_disk(), cut to 2^-15 grid
+ *        units and to 2^-29 of a direction.
  */
 bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
         ql_uniform2_t lens, ql_ray_t *ray);

@@ -49,7 +49,8 @@ QL_INLINE ql_vec3_t ql_shading_normal(const ql_surface_t *surface)
  *   return   real   n.w of the unit shading normal n, in the units of w; 0 if
  *                   that is not above 0, or if w is not above surface->n
  *
- * Error: relative, 2^-26 of a flat surface; of a smooth one 2^-28 |w|.
+ * Error: relative, 2^-26 of a flat surface, 2^-28 more of a sphere; of a smooth
+ *        one 2^-28 |w|.
  */
 ql_real_t ql_shading_cosine(const ql_surface_t *surface, ql_vec3_t w);
 

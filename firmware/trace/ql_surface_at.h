@@ -24,8 +24,9 @@
  * A shading normal is interpolated between the corners' with the exact weights
  * of the hit, on the side it was seen from. Where it is not above the surface
  * itself, or a corner has none, the surface is flat.
- * Error: of the shading normal, angle 2^-27 rad if the corner normals lean
- *        less than a right angle, length 2^-25 (tests/unit/test_smooth.c).
+ * Error: of the shading normal, angle 2^-27 rad and 2^-30 of the sum of the
+ *        corner normals' lengths over the length of the interpolated one;
+ *        length 2^-25 (tests/unit/test_smooth.c).
  */
 void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
         const ql_hit_t *hit, ql_surface_t *surface);

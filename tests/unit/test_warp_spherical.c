@@ -183,6 +183,16 @@ static void inverse(
     *u2 = (1 - dot(w, t->b)) / (1 - dot(end, t->b));
 }
 
+/* How far beyond the plane of an edge a direction is. */
+static long double outside_by(const triangle_t *t, point_t w)
+{
+    const long double sign = dot(t->a, cross(t->b, t->c)) < 0 ? -1 : 1;
+    long double inside = dot(w, unit(cross(t->a, t->b))) * sign;
+
+    inside = fminl(inside, dot(w, unit(cross(t->b, t->c))) * sign);
+    return -fminl(inside, dot(w, unit(cross(t->c, t->a))) * sign);
+}
+
 /* ---- Triangles to try ---------------------------------------------------- */
 
 static int32_t random_in(int32_t most)
@@ -445,8 +455,6 @@ static void check_direction(const ql_warp_spherical_t *t,
             u1_exact + (u1_exact < 0.5L ? U1_ERROR : -U1_ERROR);
     const point_t end = half_angle_end(exact, u1_exact);
     const point_t should = along(exact, end, u2_exact);
-    const long double sign =
-            dot(exact->a, cross(exact->b, exact->c)) < 0 ? -1 : 1;
     const long double error = distance(w, should);
     const long double length = fabsl(sqrtl(dot(w, w)) - 1);
     /* where the arc from b ends near -b, what is left of it guides the rest;
@@ -456,21 +464,19 @@ static void check_direction(const ql_warp_spherical_t *t,
                     (dot(exact->b, end) < 0 ? sinl(arc(exact->b, end)) : 1) +
             distance(should,
                     along(exact, half_angle_end(exact, moved), u2_exact));
-    long double outside = dot(w, unit(cross(exact->a, exact->b))) * sign;
+    const long double outside = outside_by(exact, w);
 
-    outside = fminl(outside, dot(w, unit(cross(exact->b, exact->c))) * sign);
-    outside = fminl(outside, dot(w, unit(cross(exact->c, exact->a))) * sign);
     worst_side = fmaxl(worst_side, error);
     worst_share = fmaxl(worst_share, error / bound);
     worst_length = fmaxl(worst_length, length);
-    worst_outside = fmaxl(worst_outside, -outside);
+    worst_outside = fmaxl(worst_outside, outside);
     CHECK(error <= bound,
             SHOW_CORNERS " %.4Lg sr, u = %08lx %08lx: off by %.3Lg", SHOWN(k),
             exact->area, (unsigned long)u1, (unsigned long)u2, error);
-    CHECK(length <= SIDE_ERROR && -outside <= bound,
+    CHECK(length <= SIDE_ERROR && outside <= bound,
             SHOW_CORNERS ", u = %08lx %08lx: length off by %.3Lg, outside "
                          "by %.3Lg",
-            SHOWN(k), (unsigned long)u1, (unsigned long)u2, length, -outside);
+            SHOWN(k), (unsigned long)u1, (unsigned long)u2, length, outside);
 }
 
 TEST(directions_are_unit_inside_and_where_arvo_has_them)
@@ -646,9 +652,12 @@ static point_t even_arc(const ql_warp_spherical_t *t, const triangle_t *exact,
     return along(exact, end, s * s / (l * l));
 }
 
-/* p-value of equal-probability bins; a direction outside is never right. */
+/* p-value of equal-probability bins; a direction outside is never right. By how
+ * much it may be is a direction's error and that of u1 along an edge of up to
+ * pi, as a length: next to a corner u1 and u2 may be off by any amount. */
 static double chi2_p(map_t map, corners_t k)
 {
+    const long double limit = sqrtl(3) * (SIDE_ERROR + pi * U1_ERROR);
     static uint32_t counts[BINS];
     ql_warp_spherical_t t;
     triangle_t exact;
@@ -663,10 +672,10 @@ static double chi2_p(map_t map, corners_t k)
                 map(&t, &exact, k, (uint32_t)bits, (uint32_t)(bits >> 32));
         long double u1, u2;
 
-        inverse(&exact, w, &u1, &u2);
-        if (!(u1 > -1e-6L && u1 < 1 + 1e-6L && u2 > -1e-6L && u2 < 1 + 1e-6L)) {
+        if (!(outside_by(&exact, w) <= limit)) {
             return 0;
         }
+        inverse(&exact, w, &u1, &u2);
         counts[(int)fminl(fmaxl(u1 * ROWS, 0), ROWS - 1) * COLUMNS +
                 (int)fminl(fmaxl(u2 * COLUMNS, 0), COLUMNS - 1)]++;
     }

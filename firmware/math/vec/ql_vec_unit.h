@@ -31,7 +31,9 @@ QL_INLINE ql_real_t ql_vec_unit_unpack_inv_n(uint32_t inv_n)
  *   square  -  n . n, below 2^62
  *   return  -  1/|n|, packed; 0 for 0
  *
- * Error: relative, 2^-26, and never above by more than 2^-28.
+ * Error: relative, above by 2^-28 at most, below by 2^-28 and the five bits cut
+ *        off the mantissa: 2^-26 + 2^-28; 1.002 2^-26 is the most ever found
+ *        (tests/unit/test_sphere.c).
  * Cost:  one square root, one reciprocal.
  */
 uint32_t ql_vec_unit_pack_inv_n(uint64_t square);
@@ -51,7 +53,7 @@ ql_vec3_t ql_vec_unit_q29(ql_vec3_t v);
  *   x, y, z  -      components below 2^48 in size
  *   return   s2.29  v / |v|; zero for zero
  *
- * Error: 2^-26 relative, from the packed mantissa.
+ * Error: relative, 2^-26 + 2^-28, from the packed mantissa.
  * Cost:  one square root, one reciprocal, nine multiplications.
  */
 ql_vec3_t ql_vec_unit_q29_of_wide(int64_t x, int64_t y, int64_t z);
@@ -73,7 +75,7 @@ ql_vec3_t ql_vec_unit_q29_of_length(ql_vec3_t v, ql_real_t length);
  *   inv_n   -      its 1/|n|, packed
  *   return  s2.29  n / |n|; for an inverse that is not n's, any vector
  *
- * Error: 2^-26 relative, from the packed mantissa.
+ * Error: relative, that of inv_n; each component 2^-29 more, downwards.
  * Cost:  three multiplications.
  */
 ql_vec3_t ql_vec_unit_q29_of_inv_n(ql_vec3_t n, uint32_t inv_n);
