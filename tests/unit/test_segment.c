@@ -45,12 +45,12 @@ static void build_plate(unsigned axis, unsigned bits)
         const int32_t a = flat[i][0], b = flat[i][1];
 
         for (unsigned k = 0; k < 3; k++) {
-            v[i][k] = MIDDLE + (axis == 3                    ? k == 0      ? a
-                                                                  : k == 1 ? b
-                                                                           : -a - b
-                                       : k == axis           ? 0
-                                       : k == (axis + 1) % 3 ? a
-                                                             : b);
+            v[i][k] = MIDDLE + (k == axis ? 0 : k == (axis + 1) % 3 ? a : b);
+        }
+        if (axis == 3) {
+            v[i][0] = MIDDLE + a;
+            v[i][1] = MIDDLE + b;
+            v[i][2] = MIDDLE - a - b;
         }
     }
     mini_begin(&mini);
