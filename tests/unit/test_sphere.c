@@ -474,8 +474,8 @@ static double inverse_error(uint64_t square, uint32_t packed)
 /* All five bits are cut of a mantissa that is the least, just below a power of
  * two, with the errors of root and reciprocal. The worst of every square up to
  * 4,000,000, of every mantissa of 32 bits in the tenth below a power of four,
- * and of every sixteenth elsewhere, their other bits set; in both precisions. */
-TEST(packed_inverses_are_within_their_bound_at_the_worst_squares)
+ * and of every sixteenth elsewhere, other bits set; in both precisions. */
+TEST(packed_inverses_are_within_their_bound_at_worst)
 {
     static const uint64_t worst[] = {
             1045683, 1224950958019051520u, 1163011258958479360u};
@@ -845,7 +845,7 @@ int main(int argc, char **argv)
     RUN(hits_are_on_the_sphere_and_misses_are_misses);
     RUN(a_radius_wrong_by_a_256th_is_detected);
     RUN(a_ray_from_the_sphere_itself_crosses_it_or_leaves);
-    RUN(packed_inverses_are_within_their_bound_at_the_worst_squares);
+    RUN(packed_inverses_are_within_their_bound_at_worst);
     RUN(points_are_strictly_on_the_side_they_were_seen_from);
 #if QL_CFG_GLASS
     RUN(points_cross_to_the_other_side_strictly);
