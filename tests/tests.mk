@@ -108,6 +108,8 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \
     tools/ref|tests/tools/test_ref.sh; \
     tools/recv|tests/tools/test_recv.sh; \
+    tools/merge|tests/tools/sums/test_merge.sh; \
+    tools/terminal|tests/tools/terminal/test_terminal.sh; \
     tools/run|tests/tools/dev/test_run.sh; \
     tools/setup|tests/tools/dev/test_setup.sh;
 jobs_lint := lint/layers|tests/lint/check_layers.sh; \
@@ -125,6 +127,10 @@ jobs_matrix := golden|tests/golden/run_matrix.sh; \
     objects|tests/lint/check_objects.sh; \
     extreme/build|tests/extreme/extreme_build.sh;
 
+# What scripts run beside the programs.
+helpers := $(patsubst tests/%.c,$O/test/fine/%,$(wildcard \
+    tests/tools/*_main.c tests/tools/*/*_main.c))
+
 programs_of = $(filter $O/test/%,$(subst |, ,$(subst ;, ,$(1))))
 
 # $(1) a list of jobs: build what they run, then run them.
@@ -140,14 +146,14 @@ test: ## Run everything, on this PC and on every emulated board
 	    status=$$?; mkdir -p $O/test && times > $O/test/make.times; \
 	    exit $$status
 
-test-all: $(programs) $O/test/fine/tools/stream_main $O/cornell.qlb \
+test-all: $(programs) $(helpers) $O/cornell.qlb \
     $O/mesh.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
     $(programs_configs) $(programs_golden) $(golden_blobs)
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(strip \
 	    )$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
-quick := $(call programs_of,$(jobs_quick)) $O/test/fine/tools/stream_main
+quick := $(call programs_of,$(jobs_quick)) $(helpers)
 
 test-quick: ## Unit and tool tests on this PC
 test-quick: $(programs) $O/cornell.qlb $(quick)

@@ -170,6 +170,7 @@ static void skip(input_t *in, size_t count)
                 in->text_size >= sizeof mine - 1 || c == mine[in->text_size];
         if (c == '\n' && in->text_size > sizeof mine - 1) {
             in->text[in->text_size] = '\0';
+            cli_below_progress();
             fprintf(stderr, "board: %s\n", in->text + sizeof mine - 1);
         }
         if (c >= ' ' && c <= '~' && fits && starts) {
@@ -332,8 +333,10 @@ static void receive(input_t *in, picture_t *picture, bool quiet)
         } else if (verdict == GOOD_FRAME) {
             take_frame(picture, in->bytes + in->begin);
             in->begin += QL_STREAM_FRAME_BYTES(size);
-            cli_progress("receiving", picture->good,
-                    picture->height > 0 ? picture->height : 1, quiet);
+            if (!picture->ended) { /* the last line has ended the bar */
+                cli_progress(
+                        "receiving", picture->good, picture->height, quiet);
+            }
         } else {
             if (verdict == BAD_FRAME) {
                 note_bad_frame(picture, in->bytes + in->begin);
@@ -358,6 +361,7 @@ static void list_lines(const picture_t *picture, int state, const char *what)
         while (y + 1 < picture->height && picture->lines[y + 1] == state) {
             y++;
         }
+        cli_below_progress();
         fprintf(stderr, "%s%u", separator, first);
         if (y > first) {
             fprintf(stderr, "-%u", y);

@@ -320,10 +320,7 @@ static void take_match(reader_t *r, unsigned length_code, const huffman_t *dist)
         return;
     }
     length = length_base[length_code] + take_bits(r, length_extra[length_code]);
-    d = take_symbol(r, dist);
-    if (r->error == NULL && d >= DISTANCE_CODES) {
-        r->error = "a distance code out of range";
-    }
+    d = take_symbol(r, dist); /* < DISTANCE_CODES: no block has more */
     if (r->error != NULL) {
         return;
     }

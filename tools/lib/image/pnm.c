@@ -29,7 +29,8 @@ static bool skip_space(cursor_t *c)
     while (c->at < c->size &&
             (is_space(c->data[c->at]) || c->data[c->at] == '#')) {
         if (c->data[c->at] == '#') {
-            while (c->at < c->size && c->data[c->at] != '\n') {
+            while (c->at < c->size && c->data[c->at] != '\n' &&
+                    c->data[c->at] != '\r') {
                 c->at++;
             }
         } else {

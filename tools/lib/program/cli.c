@@ -90,6 +90,14 @@ void cli_begin(const char *program)
     atexit(close_stdout);
 }
 
+void cli_below_progress(void)
+{
+    if (progress_open) {
+        fputc('\n', stderr);
+        progress_open = false;
+    }
+}
+
 bool cli_interrupted(void)
 {
     return interrupted != 0;
@@ -99,9 +107,7 @@ void cli_fail(int code, const char *format, ...)
 {
     va_list arguments;
 
-    if (progress_open) {
-        fputc('\n', stderr);
-    }
+    cli_below_progress();
     fprintf(stderr, "%s: ", program_name);
     va_start(arguments, format);
     vfprintf(stderr, format, arguments);
@@ -115,8 +121,8 @@ void cli_warn(const char *format, ...)
 {
     va_list arguments;
 
-    fprintf(stderr, "%s%s: warning: ", progress_open ? "\n" : "", program_name);
-    progress_open = false;
+    cli_below_progress();
+    fprintf(stderr, "%s: warning: ", program_name);
     va_start(arguments, format);
     vfprintf(stderr, format, arguments);
     va_end(arguments);

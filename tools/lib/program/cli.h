@@ -60,6 +60,10 @@ void cli_out_commit(cli_out_t *out);
  * second; done == total finishes the line. */
 void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet);
 
+/* Begin a new line if the cursor stands behind a progress bar. What writes to
+ * stderr by other means than the two above calls this first. */
+void cli_below_progress(void);
+
 /* Seconds of a clock that only goes forward. */
 double cli_seconds(void);
 

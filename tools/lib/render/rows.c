@@ -30,11 +30,14 @@ static uint32_t take_row(shared_t *shared)
     return row;
 }
 
-/* Hand in what a thread did. */
+/* Hand in what a thread did, if anything: the bar ends once. */
 static void report(shared_t *shared, void *own, uint64_t *samples)
 {
     const rows_t *rows = shared->rows;
 
+    if (*samples == 0) {
+        return;
+    }
     pthread_mutex_lock(&shared->lock);
     rows->collect(rows->job, own);
     shared->done += *samples;

@@ -161,14 +161,15 @@ static uint32_t join_samples(
     return made;
 }
 
-/* If the last made ranges repeat the n before them, only further down, grow
- * those instead. Returns how many ranges now describe the lowest rows. */
+/* If the last made ranges repeat the n before them, which are of the rows right
+ * above, grow those instead. Returns how many ranges now describe the lowest
+ * rows. */
 static uint32_t join_rows(sums_t *joined, uint32_t n, uint32_t made)
 {
     sums_range_t *now = joined->ranges + joined->range_count - made;
     sums_range_t *old = now - n;
 
-    if (n != made || made == 0 || old->row_end != now->row_first) {
+    if (n != made) {
         return made;
     }
     for (uint32_t i = 0; i < n; i++) {
@@ -226,7 +227,7 @@ static const char *take_fields(sums_t *sums, const uint8_t *data, size_t *at)
         sums->field[i] = bytes_get_le32(data + *at);
         value = sums_field_value(sums, i);
         if (value < fields[i].min || value > fields[i].max) {
-            snprintf(message, sizeof message, "expected a %s from %ld to %lu",
+            snprintf(message, sizeof message, "expected %s from %ld to %lu",
                     fields[i].name, (long)fields[i].min,
                     (unsigned long)fields[i].max);
             return message;

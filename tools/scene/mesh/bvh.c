@@ -175,7 +175,8 @@ static void make_leaf(
     node->link = first;
     node->meta = BVH_LEAF + n;
     b->done += n;
-    if (b->done % 256 < n && b->grid->face_count >= 4096) {
+    if (b->grid->face_count >= 4096 &&
+            (b->done % 256 < n || b->done == b->grid->face_count)) {
         cli_progress("bvh", b->done, b->grid->face_count, b->quiet);
     }
 }

@@ -1,0 +1,184 @@
+#!/bin/sh
+# test_merge.sh - qlux-merge: sums beyond 32 bits, and files that were damaged
+# SPDX-License-Identifier: MIT
+#
+# Usage: tests/tools/sums/test_merge.sh [BUILD]
+# Example: tests/tools/sums/test_merge.sh build
+
+suite=tools/merge
+. tests/support/workspace.sh
+sim=$build/qlux-sim
+merge=$build/qlux-merge
+patch=$build/test/fine/tools/sums/patch_main
+
+"$build/qlux-scene" "$root/tests/scenes/furnace.scene" -o scene.qlb \
+    >out.txt || exit 3
+
+# ---- Numbers: two pixels, one sample in each part; sums begin at byte 92
+for i in 0 1; do
+    "$sim" scene.qlb --size 2x1 --spp 2 --samples $i:$((i + 1)) --quiet \
+        --save-sums part$i.qls || exit 3
+done
+
+# reverse: the eight bytes of each line
+reverse() {
+    sed 's/\(..\)\(..\)\(..\)\(..\)\(..\)\(..\)\(..\)\(..\)/\8\7\6\5\4\3\2\1/'
+}
+# file PART HEX...: the sums of a part, each as sixteen digits
+file() {
+    "$patch" "$1" 92 "$(shift && printf '%s\n' "$@" | reverse | tr -d '\n')"
+}
+# sums FILE: its six sums
+sums() {
+    od -An -v -tx1 -j 92 -N 48 -w8 "$1" | tr -d ' ' | reverse
+}
+
+# A, B and what they add up to: carries into the upper half, into its highest
+# bit, exactly the largest number, and beyond it.
+cat >cases.txt <<'END'
+00000000ffffffff 0000000000000001 0000000100000000
+00000000ffffffff 00000000ffffffff 00000001fffffffe
+12345678ffffffff 0000000100000001 1234567a00000000
+7fffffffffffffff 0000000000000001 8000000000000000
+fffffffffffffffe 0000000000000001 ffffffffffffffff
+ffffffffffffffff 0000000000000001 ffffffffffffffff
+8000000000000000 8000000000000000 ffffffffffffffff
+ffffffff00000000 00000000ffffffff ffffffffffffffff
+ffffffff00000000 0000000100000000 ffffffffffffffff
+0000000000000000 fffffffffffffffe fffffffffffffffe
+00000000fffffffe 0000000000000001 00000000ffffffff
+0123456789abcdef 0fedcba987654321 1111111111111110
+END
+ok=0
+for from in 1 2 3 4 5 6 7 8 9 10 11 12; do
+    # six of the twelve, beginning with another one each time
+    cat cases.txt cases.txt | tail -n +$from | head -n 6 >six.txt
+    # shellcheck disable=SC2046 # a list of numbers
+    file part0.qls $(cut -d ' ' -f 1 six.txt) >a.qls &&
+        file part1.qls $(cut -d ' ' -f 2 six.txt) >b.qls || ok=1
+    cut -d ' ' -f 3 six.txt >wanted.txt
+    for order in 'a.qls b.qls' 'b.qls a.qls'; do
+        # shellcheck disable=SC2086
+        "$merge" $order --save-sums sum.qls && sums sum.qls >got.txt &&
+            cmp -s got.txt wanted.txt || ok=1
+    done
+done
+say every_sum_carries_and_stops_at_its_largest $ok
+
+# The mean of 2^24 samples is one: half of them in each part.
+"$patch" part0.qls 76 "00000000010000000000000000008000" \
+    92 "$(printf '0000000000800000%.0s' 1 2 3 4 5 6)" >a.qls
+"$patch" part1.qls 76 "00000000010000000000800000000001" \
+    92 "$(printf '0000000000800000%.0s' 1 2 3 4 5 6)" >b.qls
+"$merge" a.qls b.qls -o sum.pfm --save-sums sum.qls && [ "$(sums sum.qls |
+    sort -u)" = 0001000000000000 ] &&
+    [ "$(od -An -tx1 -j 76 -N 16 sum.qls | tr -d ' ')" = \
+        00000000010000000000000000000001 ]
+say counts_of_samples_add_up_to_the_most $?
+exponent=$(od -An -td4 -j 20 -N 4 part0.qls | tr -d ' ')
+# 2^e as a float: no sign, eight bits of e + 127, no fraction
+float=$(awk -v b=$(((exponent + 127) * 8388608)) 'BEGIN {
+    for (; k < 4; k++) { printf "%02x", b % 256; b = int(b / 256) } }')
+[ "$(tail -c 24 sum.pfm | od -An -v -tx1 -w4 | tr -d ' ' | sort -u)" = \
+    "$float" ]
+say their_mean_is_one_unit $?
+
+# One run of many samples against its parts, which meet within a step of the
+# work and at its end. Each sum is 8200 times 2 and more, of which 2^24 is 1.
+many="--size 3x2 --spp 8200 --quiet"
+"$sim" scene.qlb $many --save-sums whole.qls -o whole.pfm
+for part in 0:4095 4095:4097 4097:8192 8192:8193 8193:8200; do
+    "$sim" scene.qlb $many --samples $part --save-sums "many$part.qls"
+done
+"$merge" many*.qls -o sum.pfm --save-sums sum.qls &&
+    cmp -s whole.qls sum.qls && cmp -s whole.pfm sum.pfm
+say parts_of_many_samples_add_up_to_one_run $?
+high=$(od -An -v -tu4 -j 92 -N 144 -w8 whole.qls | awk '$2 > 0' | wc -l)
+[ "$high" -eq 18 ]
+say all_of_their_sums_are_beyond_32_bits $? "$high of 18"
+
+# ---- Damage
+
+# refuses CLAIM WHERE-AND-WHY: bad.qls, alone and as the second part
+refuses() {
+    ok=0
+    for parts in bad.qls 'part0.qls bad.qls'; do
+        # shellcheck disable=SC2086
+        "$merge" $parts -o no.ppm --save-sums no.qls >out.txt 2>err.txt
+        [ $? -eq 2 ] && [ ! -s out.txt ] && [ ! -e no.ppm ] &&
+            [ ! -e no.qls ] &&
+            [ "$(cat err.txt)" = "qlux-merge: bad.qls: byte $2" ] || ok=1
+    done
+    say "$1" $ok
+    [ $ok -eq 0 ] || sed 's/^/    /' err.txt
+}
+
+size=$(wc -c <part1.qls)
+changed="$((size - 4)): the CRC-32 does not match: the file was cut or changed"
+# Of the settings, of the ranges, of the sums, of the check value.
+for at in 4 43 71 72 76 91 92 "$((size - 5))" "$((size - 1))"; do
+    { head -c "$at" part1.qls
+      tail -c +$((at + 1)) part1.qls | head -c 1 | tr '\000-\377' \
+          '\200-\377\000-\177'
+      tail -c +$((at + 2)) part1.qls; } >bad.qls
+    refuses "byte_${at}_changed_is_refused" "$changed"
+done
+for cut in 3 4 71 79 80 100 "$((size - 1))"; do
+    head -c "$cut" part1.qls >bad.qls
+    case $cut in
+    3) why='0: expected a sum file (QLS3)' ;;
+    4 | 71 | 79) why="$cut: the file ends within its header" ;;
+    *) why="$((cut - 4)): ${changed#*: }" ;;
+    esac
+    refuses "a_file_of_${cut}_bytes_is_refused" "$why"
+done
+for version in 1 2 4; do
+    "$patch" part1.qls 3 3$version >bad.qls
+    refuses "version_${version}_is_refused" '0: expected a sum file (QLS3)'
+done
+# Numbers that no program of ours writes, under a right check value.
+# A line says what is put where, the next one what comes of it.
+while read -r claim at hex && read -r why; do
+    "$patch" part1.qls "$at" "$hex" >bad.qls
+    refuses "$claim" "$why"
+done <<'END'
+width_0_is_refused 4 00000000
+    4: expected width from 1 to 16384
+height_16385_is_refused 8 01400000
+    8: expected height from 1 to 16384
+exponent_minus_65_is_refused 20 bfffffff
+    20: expected radiance exponent from -64 to 64
+exponent_65_is_refused 20 41000000
+    20: expected radiance exponent from -64 to 64
+exposure_32768_is_refused 24 00800000
+    24: expected exposure from -32768 to 32767
+direction_bits_0_are_refused 32 00000000
+    32: expected direction bits from 1 to 31
+roulette_2_is_refused 60 02000000
+    60: expected roulette from 0 to 1
+table_bits_11_are_refused 64 0b000000
+    64: expected table bits from 5 to 10
+refined_tables_2_are_refused 68 02000000
+    68: expected refined tables from 0 to 1
+more_ranges_than_bytes_are_refused 72 05000000
+    72: expected a number of ranges that the file can hold
+a_range_of_no_rows_is_refused 76 01000000
+    76: expected a range of rows of the picture
+a_range_below_the_picture_is_refused 80 02000000
+    76: expected a range of rows of the picture
+a_range_of_no_samples_is_refused 88 01000000
+    76: expected a range of samples from 0 to 2^24
+a_range_beyond_2_to_the_24_is_refused 88 01000001
+    76: expected a range of samples from 0 to 2^24
+sums_too_many_are_refused 4 01000000
+    92: unexpected bytes after the sums
+sums_too_few_are_refused 4 03000000
+    92: the sums end too early
+END
+
+# Its one range twice; the first sums are taken for the second.
+"$patch" part1.qls 72 02000000 92 "$(od -An -v -tx1 -j 76 -N 16 part1.qls |
+    tr -d ' \n')" >bad.qls
+refuses two_ranges_that_overlap_are_refused '92: a range that overlaps another'
+
+exit $((failures != 0))
