@@ -95,6 +95,7 @@ $(golden_blobs): tests/golden/scenes.sh $O/qlux-scene $(wildcard tests/scenes/*)
 	    touch $@
 jobs_gates := golden/gates|tests/golden/some.sh $(others); \
     configs/triples|tests/configs/test_gates.sh --triples; \
+    configs/tables|tests/configs/test_tables.sh; \
     configs/gates|tests/configs/test_gates.sh;
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
 jobs_scripts := tools/make|tests/tools/test_make.sh; \

@@ -3,8 +3,8 @@
 
 /* The core checks a blob once, at the door. One list has what is legal of each
  * field of the schema: the last legal value and the first one that is not. With
- * the CRC mended the one opens; the other, with which nothing else is wrong, is
- * refused with the status of its rule. A field that is not in the list fails. */
+ * the CRC mended the one opens; the other, with which nothing else is wrong,
+ * is refused with the status of its rule. A field that is not listed fails. */
 
 #include <math.h>
 #include <stdlib.h>
