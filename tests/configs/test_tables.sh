@@ -4,10 +4,10 @@
 #
 # usage: tests/configs/test_tables.sh
 #
-# ql_config.h offers QL_CFG_TABLE_BITS from .. to ..; gates.txt tries some of them
-# in everything. With each other one, as it is in one precision and refined in
-# the other, the claims about what reads a table run: compiled with the few files
-# that they need. Prints one claim a configuration.
+# ql_config.h offers QL_CFG_TABLE_BITS from .. to ..; gates.txt tries some of
+# them in everything. With each other one, as it is in one precision and refined
+# in the other, the claims about what reads a table run: compiled with the few
+# files that they need. Prints one claim a configuration.
 #
 # Environment: CC (cc).
 #
