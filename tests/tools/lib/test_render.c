@@ -8,6 +8,7 @@
 
 #include "support/picture/box_scene.h"
 #include "lib/render/develop.h"
+#include "lib/render/rows.h"
 #include "qlux.h"
 #include "sim/sim_render.h"
 
@@ -125,6 +126,53 @@ static void compare(const ql_scene_t *scene, uint32_t spp, uint16_t error_q16)
     sums_free(&sums);
 }
 
+/* More samples than the simulator takes in a step: one call of the core has
+ * the same sums, of as many paths, wherever the range begins and ends. */
+static void compare_steps(const ql_scene_t *scene)
+{
+    static const struct {
+        uint32_t first, end;
+        const char *name;
+    } ranges[] = {{0, ROWS_STEP, "a_step"}, {0, ROWS_STEP + 1, "one_more"},
+            {0, 5000, "5000_samples"}, {3, 3 * ROWS_STEP + 5, "four_steps"},
+            {70000, 75000, "70000_to_75000"}};
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+    ql_render_t render;
+
+    settings.width = 2;
+    settings.height = 1;
+    settings.spp = 80000;
+    if (ql_render_init(&render, scene, &settings) != QL_OK) {
+        cli_fail(CLI_INPUT, "the settings are refused");
+    }
+    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
+        const uint32_t count = ranges[i].end - ranges[i].first;
+        const sums_range_t range = {0, 1, ranges[i].first, ranges[i].end};
+        sums_range_t clash;
+        sim_stats_t stats;
+        sums_t sums;
+        bool same = true;
+
+        render.diag.paths = 0; /* which the simulator goes on counting */
+        memset(&sums, 0, sizeof sums);
+        sums.field[SUMS_WIDTH] = 2;
+        sums.field[SUMS_HEIGHT] = 1;
+        sums_new(&sums);
+        (void)sums_claim(&sums, &range, &clash);
+        same = sim_render(&sums, &render, &range, 1, true, &stats) &&
+               stats.paths == 2 * (uint64_t)count;
+        for (uint16_t x = 0; x < 2; x++) {
+            ql_sum_t sum = {{0, 0, 0}};
+
+            ql_render_pixel(&render, x, 0, ranges[i].first, count, &sum);
+            same = same && memcmp(&sum, sums.pixels + x, sizeof sum) == 0 &&
+                   sum.rgb[0] != 0;
+        }
+        check(same, "steps_add_up_to_one_call_of", ranges[i].name);
+        sums_free(&sums);
+    }
+}
+
 int main(void)
 {
     ql_scene_t scene;
@@ -137,6 +185,7 @@ int main(void)
         cli_fail(CLI_INPUT, "the scene does not open");
     }
     compare(&scene, 5, 0);
+    compare_steps(&scene);
 #if QL_CFG_ADAPTIVE
     compare(&scene, 200, 0x4000);
 #endif
