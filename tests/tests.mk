@@ -123,7 +123,8 @@ jobs_boards := boards|tests/boards/test_boards.sh; \
     tools/trade|tests/tools/test_trade.sh; \
     boards/stack|tests/tools/test_stack_report.sh; \
     bench|tests/bench/test_bench.sh;
-jobs_mutants := mutants|tests/mutants/run.sh;
+jobs_mutants := $(foreach k,1 2 3 4,mutants/$k-of-4|tests/mutants/run.sh \
+    --share $k-of-4;)
 jobs_matrix := golden|tests/golden/run_matrix.sh; \
     objects|tests/lint/check_objects.sh; \
     extreme/build|tests/extreme/extreme_build.sh;
@@ -189,7 +190,7 @@ test-seeds: ## Unit and known tests with N other seeds; ONLY=name for a few
 test-seeds: $(seeds) $O/cornell.qlb $O/mesh.qlb
 	@tests/seeds/run.sh $(N) $(seeds)
 
-test-mutants: ## Plant faults in the core, one by one: a test has to see each
+test-mutants: ## Plant faults, one by one: a test has to see each
 	@$(MAKE) --no-print-directory -j$$(getconf _NPROCESSORS_ONLN) \
 	    $$(tests/mutants/run.sh --needs)
 	@CC="$(CC)" tests/mutants/run.sh

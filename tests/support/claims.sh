@@ -3,6 +3,8 @@
 #
 # Before: suite=FOLDER/NAME. After: $failures counts the claims that fail; a
 # script ends with exit $((failures > 0)). tests/run.sh counts the same lines.
+# UNTIL="CLAIM..." in the environment ends a script earlier: when it has said
+# all of these, or at the first claim that fails.
 
 failures=0
 columns='%-20s %-52s' # of suite and claim
@@ -12,6 +14,16 @@ say_as() {
     line=$(printf "$columns %-4s %s" "$1" "$2" "$3" "${4-}")
     printf '%s\n' "$line"
     [ "$3" = ok ] || failures=$((failures + 1))
+    [ -z "${UNTIL-}" ] || end_early "$2"
+}
+
+# end_early CLAIM: it was said; is it the last one wanted, or one that fails?
+end_early() {
+    [ $failures -eq 0 ] || exit 1
+    case " $UNTIL " in
+    " $1 ") exit 0 ;;
+    *" $1 "*) UNTIL=$(printf %s " $UNTIL " | sed "s/ $1 / /; s/^ //; s/ $//") ;;
+    esac
 }
 
 # say CLAIM STATUS [NOTE]: it holds if STATUS is 0
