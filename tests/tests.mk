@@ -14,8 +14,8 @@ config_draft-san := $(config_draft) $(sanitize)
 # The many others are compiled for unit tests only, and in less time. They try
 # fewer random inputs; what they draw is compared bit for bit.
 full := fine draft fine-san draft-san
-test_flags = -Werror $(if $(filter $(full),$(1)),-O2 -g,-O1 -g0) \
-    $(if $(filter fine draft,$(1)),,-DQL_TEST_SHARE=8)
+test_flags = -Werror $(if $(filter fine draft,$1),-O2 -g1,-O1 \
+    $(if $(filter %-san,$1),-g1,-g0) -DQL_TEST_SHARE=8)
 test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
     $(wildcard sim/sim_hal.c sim/sim_fault.c firmware/app/*.c)
 support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \
@@ -30,16 +30,21 @@ support_unit := $(test_lib) tools/lib/program/cli.c \
 support_of = $(if $(filter $(full),$(1)),$(support) $(reference), \
     $(support_unit))
 
+# What the product has is not compiled twice: the core, and what tools share.
+core_of = $(if $(filter fine draft,$1),$O/$1,$O/test/$1)
+support_from = $(if $(filter fine/tools/lib/% fine/tools/scene/%,$1/$2),$O/host, \
+    $O/test/$1)
+
 # Under configuration $1: the core, what tests share, and every test.
 define rules_of
 $(call objects,test/$1,$(call test_flags,$1) -Isim -Itests/known -Itests/bench \
     $(config_$1))
 
-$O/test/$1/core.a: $(core_src:%.c=$O/test/$1/%.o) $O/flags/sources
+$O/test/$1/core.a: $(core_src:%.c=$(call core_of,$1)/%.o) $O/flags/sources
 	$$(archive)
 
-$O/test/$1/support.a: $(patsubst %.c,$O/test/$1/%.o,$(call support_of,$1)) \
-    $O/flags/sources
+$O/test/$1/support.a: $(foreach s,$(call support_of,$1), \
+    $(strip $(call support_from,$1,$s))/$(s:.c=.o)) $O/flags/sources
 	$$(archive)
 
 $O/test/$1/%: $O/test/$1/tests/%.o $O/test/$1/support.a $O/test/$1/core.a \
@@ -81,8 +86,8 @@ in = $(foreach t,$(2),$(1)/$(t)|$O/test/$(1)/$(t)$(if $(findstring \
 jobs_known := $(foreach c,fine draft,$(call in,$(c),$(known)))
 jobs_quick := $(call in,fine,$(unit) $(tool) $(extreme)) \
     $(call in,draft,$(unit) $(extreme))
-jobs_san := $(foreach c,fine-san draft-san,$(call in,$(c),$(unit) $(tool) \
-    $(extreme)))
+jobs_san := $(call in,fine-san,$(unit) $(tool) $(extreme)) \
+    $(call in,draft-san,$(unit) $(extreme))
 # Of programs that come out the same, byte for byte, one runs: known once built.
 programs_configs := $(foreach c,$(filter-out $(full),$(configs)),$(addprefix \
     $O/test/$(c)/,$(unit)))
