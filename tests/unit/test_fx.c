@@ -8,7 +8,33 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 
-enum { RANDOM_PAIRS = MANY(4000000) };
+/* The products put together from halves, under names of their own, so that every
+ * build tries both. */
+#if QL_PORT_WIDE_MUL
+#define ql_mulhi_u32         halves_mulhi_u32
+#define ql_mulhi_u32_rounded halves_mulhi_u32_rounded
+#define ql_mulhi_su32        halves_mulhi_su32
+#define ql_product_u32       halves_product_u32
+#define ql_mul_uq31          halves_mul_uq31
+#define ql_dot_s16_s32       halves_dot_s16_s32
+#undef QL_FX_INLINE
+#include "math/ql_fx_halves.h"
+#undef ql_mulhi_u32
+#undef ql_mulhi_u32_rounded
+#undef ql_mulhi_su32
+#undef ql_product_u32
+#undef ql_mul_uq31
+#undef ql_dot_s16_s32
+#else
+#define halves_mulhi_u32         ql_mulhi_u32
+#define halves_mulhi_u32_rounded ql_mulhi_u32_rounded
+#define halves_mulhi_su32        ql_mulhi_su32
+#define halves_product_u32       ql_product_u32
+#define halves_mul_uq31          ql_mul_uq31
+#define halves_dot_s16_s32       ql_dot_s16_s32
+#endif
+
+enum { RANDOM_PAIRS = MANY(2000000) };
 
 static uint64_t state;
 
@@ -105,22 +131,68 @@ TEST(absolute_values_are_defined_for_the_smallest_number_too)
     CHECK(ql_abs64(INT64_MIN) == (uint64_t)1 << 63, "of INT64_MIN");
 }
 
-static void check_products(uint32_t a, uint32_t b)
+/* By one file, or by the other. */
+typedef struct {
+    const char *by;
+    uint32_t high, rounded, unit;
+    int32_t high_signed;
+    uint64_t whole;
+} products_t;
+
+static void check_products_by(products_t p, uint32_t a, uint32_t b)
 {
     const uint64_t uu = (uint64_t)a * b;
     const int64_t su = (int64_t)ql_i32(a) * (int64_t)b;
     /* a b + 2^30 can need 65 bits: halve first, which drops no bit of >> 31 */
     const uint64_t half = (uu >> 1) + 0x20000000u;
 
-    CHECK(ql_mulhi_u32(a, b) == uu >> 32, "ql_mulhi_u32(%08lx, %08lx)",
+    CHECK(p.high == uu >> 32, "%s: ql_mulhi_u32(%08lx, %08lx)", p.by,
             (unsigned long)a, (unsigned long)b);
-    CHECK(ql_mulhi_su32(ql_i32(a), b) == floor_shift(su, 32),
-            "ql_mulhi_su32(%ld, %08lx) = %ld", (long)ql_i32(a),
-            (unsigned long)b, (long)ql_mulhi_su32(ql_i32(a), b));
-    CHECK(ql_mul_uq31(a, b) == (uint32_t)(half >> 30),
-            "ql_mul_uq31(%08lx, %08lx) = %08lx, not %08lx", (unsigned long)a,
-            (unsigned long)b, (unsigned long)ql_mul_uq31(a, b),
+    CHECK(p.rounded == (uu >> 32) + (uu >> 31 & 1),
+            "%s: ql_mulhi_u32_rounded(%08lx, %08lx)", p.by, (unsigned long)a,
+            (unsigned long)b);
+    CHECK(p.whole == uu, "%s: ql_product_u32(%08lx, %08lx)", p.by,
+            (unsigned long)a, (unsigned long)b);
+    CHECK(p.high_signed == floor_shift(su, 32),
+            "%s: ql_mulhi_su32(%ld, %08lx) = %ld", p.by, (long)ql_i32(a),
+            (unsigned long)b, (long)p.high_signed);
+    CHECK(p.unit == (uint32_t)(half >> 30),
+            "%s: ql_mul_uq31(%08lx, %08lx) = %08lx, not %08lx", p.by,
+            (unsigned long)a, (unsigned long)b, (unsigned long)p.unit,
             (unsigned long)(uint32_t)(half >> 30));
+}
+
+static void check_products(uint32_t a, uint32_t b)
+{
+    const products_t built = {"as built", ql_mulhi_u32(a, b),
+            ql_mulhi_u32_rounded(a, b), ql_mul_uq31(a, b),
+            ql_mulhi_su32(ql_i32(a), b), ql_product_u32(a, b)};
+    const products_t halves = {"by halves", halves_mulhi_u32(a, b),
+            halves_mulhi_u32_rounded(a, b), halves_mul_uq31(a, b),
+            halves_mulhi_su32(ql_i32(a), b), halves_product_u32(a, b)};
+
+    check_products_by(built, a, b);
+    check_products_by(halves, a, b);
+}
+
+/* 64-bit numbers of every size times all nasty 16-bit ones. */
+TEST(products_with_16_bits_wrap_as_64_bit_ones)
+{
+    static const uint16_t by[] = {
+            0, 1, 2, 3, 255, 256, 21845, 32767, 32768, 43690, 65534, 65535};
+    unsigned long count = 0;
+
+    for (size_t k = 0; k < sizeof by / sizeof by[0]; k++) {
+        for (size_t i = 0; i < NASTY_COUNT * NASTY_COUNT; i++) {
+            const uint64_t a = (uint64_t)nasty32[i % NASTY_COUNT] << 32 |
+                               nasty32[i / NASTY_COUNT];
+
+            CHECK((uint64_t)ql_mul_s64_u16(ql_i64(a), by[k]) == a * by[k],
+                    "%016llx * %u", (unsigned long long)a, by[k]);
+            count++;
+        }
+    }
+    NOTE("%lu products", count);
 }
 
 TEST(products_equal_64_bit_ones_for_all_nasty_pairs)
@@ -221,6 +293,9 @@ TEST(dot_products_of_16_and_32_bit_vectors_are_exact)
                 continue;
             }
             count++;
+            CHECK(halves_dot_s16_s32(ax, ay, az, bx, by, bz) == exact,
+                    "by halves: (%ld %ld %ld).(%ld %ld %ld)", (long)ax,
+                    (long)ay, (long)az, (long)bx, (long)by, (long)bz);
             CHECK(ql_dot_s16_s32(ax, ay, az, bx, by, bz) == exact,
                     "(%ld %ld %ld).(%ld %ld %ld) = %lld, not %lld", (long)ax,
                     (long)ay, (long)az, (long)bx, (long)by, (long)bz,
@@ -264,6 +339,7 @@ int main(int argc, char **argv)
     RUN(absolute_values_are_defined_for_the_smallest_number_too);
     RUN(products_equal_64_bit_ones_for_all_nasty_pairs);
     RUN(products_equal_64_bit_ones_for_random_pairs);
+    RUN(products_with_16_bits_wrap_as_64_bit_ones);
     RUN(unit_products_keep_zero_and_one_exactly);
     RUN(unit_products_round_without_bias);
     RUN(unit_products_that_truncate_are_rejected);
