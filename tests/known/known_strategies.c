@@ -655,17 +655,25 @@ TEST(penumbra_rejects_shadows_left_out)
     }
 }
 
-/* ---- A furnace: a cube that shines everywhere ---------------------------- */
+/* ---- A furnace: a room that shines everywhere ---------------------------- */
 
-static void make_cube(double albedo)
+/* A cube. By area 1/r^2 is unbounded next to its edges and one sample has no
+ * variance at all, so by area it is a ball of many triangles, in which every
+ * sample is nearly the same. */
+static void make_furnace(uint8_t direct, double albedo)
 {
     static const int32_t low[3] = {384, 384, 384},
                          high[3] = {32384, 32384, 32384};
     static const double right[3] = {0.25, 0, -0.125}, up[3] = {0, 0.25, 0};
+    const uint16_t material =
+            (mini_begin(&m), mini_material(&m, albedo, RADIANCE));
 
-    mini_begin(&m);
-    mini_room(&m, low, high, mini_material(&m, albedo, RADIANCE));
-    m.radiance_exp = 4; /* room for 1/r^2 */
+    if (direct == QL_DIRECT_AREA) {
+        mini_ball(&m, 12, material);
+    } else {
+        mini_room(&m, low, high, material);
+    }
+    m.radiance_exp = 4; /* room for what is weighed by a small chance */
     mini_eye(&m, 14000, 17000, 12000);
     mini_look(&m, 0.125, 0.0625, 0.25);
     mini_field(&m, right, up);
@@ -677,43 +685,61 @@ static double series(double albedo, unsigned reflections)
     return (1 - pow(albedo, reflections + 1.0)) / (1 - albedo);
 }
 
-/* Of samples, or of the means of pictures where one sample has no variance: by
- * area 1/r^2 is unbounded next to an edge of the cube. Student's t of 11
- * degrees of freedom exceeds 9.6 as seldom as a normal value exceeds 4.9. */
-enum { PICTURES = 12 };
-#define T_MAX 9.6
+/* Of samples, or by area of the means of pictures: few samples of a ball are
+ * enough, and what they err by is not independent of one another. */
+enum { PICTURES = 48, FURNACES = 2 * 2 * STRATEGIES * 3 * 3 };
+
+static stats_moments_t furnace_pictures(
+        const ql_settings_t *settings, uint32_t samples)
+{
+    stats_moments_t got = {0, 0, 0};
+    ql_scene_t scene;
+
+    mini_open(&m, &scene);
+    for (uint32_t i = 0; i < PICTURES; i++) {
+        ql_settings_t s = *settings;
+        ql_sum_t sum = {{0, 0, 0}};
+        ql_render_t render;
+
+        s.seed += i;
+        CHECK(ql_render_init(&render, &scene, &s) == QL_OK, "settings");
+        ql_render_pixel(&render, 0, 0, 0, samples, &sum);
+        CHECK(render.diag.saturated == 0, "cut");
+        stats_add(
+                &got, ldexp((double)sum.rgb[0], m.radiance_exp - QL_SUM_BITS) /
+                              samples);
+    }
+    return got;
+}
 
 static stats_moments_t furnace(const ql_settings_t *settings, uint32_t samples)
 {
-    const bool pictures = settings->direct == QL_DIRECT_AREA;
-    stats_moments_t got = {0, 0, 0};
+    stats_moments_t got =
+            settings->direct == QL_DIRECT_AREA
+                    ? furnace_pictures(settings, samples / PICTURES)
+                    : estimate_pixel(&m, settings, 0, 0, samples);
 
-    if (pictures) {
-        for (uint32_t i = 0; i < PICTURES; i++) {
-            ql_settings_t s = *settings;
-
-            s.seed += i;
-            stats_add(&got,
-                    estimate_pixel(&m, &s, 0, 0, samples / PICTURES).mean);
-        }
-    } else {
-        got = estimate_pixel(&m, settings, 0, 0, samples);
-    }
     got.mean /= RADIANCE;
     got.m2 /= RADIANCE * RADIANCE;
     return got;
 }
 
 /* In units of what is allowed. A part in 10^6 is the rounding of sums and
- * albedos, all there is where no sample varies. */
+ * albedos, all there is where no sample varies; of a ball ulps in draft are a
+ * part in 250 (known_furnace). */
 static double furnace_off(
         const ql_settings_t *settings, const stats_moments_t *got, double want)
 {
+    static double t_max, z_max;
+    const bool pictures = settings->direct == QL_DIRECT_AREA;
     const double error = sqrt(stats_variance(got) / got->n);
 
-    return (got->mean - want) /
-           ((settings->direct == QL_DIRECT_AREA ? T_MAX : STATS_Z_MAX) * error +
-                   1e-6 * want);
+    if (z_max == 0) {
+        z_max = stats_z_limit(FURNACES);
+        t_max = stats_t_limit(FURNACES, PICTURES);
+    }
+    return (got->mean - want) / ((pictures ? t_max : z_max) * error +
+                                        (pictures ? 4e-3 : 1e-6) * want);
 }
 
 static void claim_furnace(const ql_settings_t *s, uint32_t samples, double want)
@@ -740,23 +766,36 @@ static ql_settings_t combination(int i)
     return s;
 }
 
-/* Every emitter asked costs a ray; pictures need more of them. */
+/* Every emitter asked costs a ray, and a ball has 1,152 of them. */
+static bool asks_a_ball(const ql_settings_t *s)
+{
+    return s->direct == QL_DIRECT_AREA && s->lights == QL_LIGHTS_ALL;
+}
+
+/* Directions alone are the same for every choice of emitter. */
 static uint32_t furnace_samples(const ql_settings_t *s)
 {
     const bool aims =
             s->direct != QL_DIRECT_COSINE && s->direct != QL_DIRECT_HEMISPHERE;
-    const uint32_t n = s->lights == QL_LIGHTS_ALL && aims ? 1u << 11 : 1u << 13;
 
-    return s->direct == QL_DIRECT_AREA ? 2 * n : n;
+    if (asks_a_ball(s)) {
+        return PICTURES * (s->indirect == QL_INDIRECT_UNIFORM ? 2 : 1);
+    }
+    if (s->direct == QL_DIRECT_AREA) {
+        return PICTURES * 32;
+    }
+    return s->lights == QL_LIGHTS_ALL             ? 1u << 11
+           : aims || s->lights == QL_LIGHTS_POWER ? 1u << 13
+                                                  : 1u << 11;
 }
 
-/* In units of what is allowed, of every combination with an albedo. */
+/* Of every combination with an albedo. */
 static void measure_furnace(double albedo, stats_moments_t got[COMBINATIONS])
 {
-    make_cube(albedo);
     for (int i = 0; i < COMBINATIONS; i++) {
         const ql_settings_t s = combination(i);
 
+        make_furnace(s.direct, albedo);
         got[i] = furnace(&s, furnace_samples(&s));
     }
 }
@@ -765,8 +804,7 @@ TEST(furnace_gives_the_series_in_every_combination_and_no_other)
 {
     static const double albedos[] = {0.5, 0.8};
     stats_moments_t got[COMBINATIONS];
-    double worst = 0, error = 0;
-    int passed = 0;
+    double worst = 0, error = 0, nearest = INFINITY;
 
     for (int a = 0; a < 2; a++) {
         const double want = series(albedos[a], 3);
@@ -783,15 +821,22 @@ TEST(furnace_gives_the_series_in_every_combination_and_no_other)
                     want);
             worst = fmax(worst, fabs(off));
             error = fmax(error, sqrt(stats_variance(got + i) / got[i].n));
-            /* emitters counted once more wherever hit; a reflection less */
-            passed += fabs(furnace_off(&s, got + i, 2 * want - 1)) < 1;
-            passed += a == 1 &&
-                      fabs(furnace_off(&s, got + i, series(albedos[a], 2))) < 1;
+            /* emitters counted once more wherever hit; a reflection less, where
+             * uniform directions in a few samples of a ball do not hide it */
+            nearest =
+                    fmin(nearest, fabs(furnace_off(&s, got + i, 2 * want - 1)));
+            if (a == 1 &&
+                    !(asks_a_ball(&s) && s.indirect == QL_INDIRECT_UNIFORM)) {
+                nearest = fmin(nearest,
+                        fabs(furnace_off(&s, got + i, series(albedos[a], 2))));
+            }
         }
     }
-    CHECK(passed == 0, "%d wrong series pass", passed);
-    NOTE("2 x %d; %.2f of the limit; standard errors up to %.3f", COMBINATIONS,
-            worst, error);
+    /* by twice the limit, so with any seed */
+    CHECK(nearest > 2, "a wrong series is off by %.2f of the limit", nearest);
+    NOTE("2 x %d; %.2f of the limit, wrong ones %.2f; standard errors up to "
+         "%.3f",
+            COMBINATIONS, worst, nearest, error);
 }
 
 TEST(furnace_gives_the_series_with_more_light_samples_and_roulette)
@@ -800,7 +845,7 @@ TEST(furnace_gives_the_series_with_more_light_samples_and_roulette)
         ql_settings_t s = combination(i);
 
         if (i % 5 < 2) {
-            make_cube(i % 3 == 0 ? 0.5 : 0.8);
+            make_furnace(s.direct, i % 3 == 0 ? 0.5 : 0.8);
             s.light_samples = i % 5 == 0 ? 3 : 1;
             s.roulette = i % 4 != 0 || s.light_samples == 1;
             claim_furnace(
@@ -821,7 +866,7 @@ TEST(furnace_by_cosine_is_exact_in_every_sample)
         if (s.direct != QL_DIRECT_COSINE || s.indirect == QL_INDIRECT_UNIFORM) {
             continue;
         }
-        make_cube(0.5);
+        make_furnace(s.direct, 0.5);
         s.bounces = 12;
         got = furnace(&s, 500);
         CHECK(got.m2 == 0 && got.mean == series(0.5, 13),
@@ -837,10 +882,10 @@ TEST(direct_none_sees_emitters_and_indirect_none_reflects_them_once)
         ql_settings_t s = combination(i);
         stats_moments_t got;
 
-        make_cube(0.5);
+        make_furnace(s.direct, 0.5);
         s.bounces = 64;
         s.indirect = QL_INDIRECT_NONE;
-        claim_furnace(&s, furnace_samples(&s) / 4, 1.5);
+        claim_furnace(&s, furnace_samples(&s), 1.5);
         s = combination(i);
         s.direct = QL_DIRECT_NONE;
         got = furnace(&s, 200);

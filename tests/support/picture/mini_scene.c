@@ -173,6 +173,58 @@ void mini_room(mini_scene_t *m, const int32_t low[3], const int32_t high[3],
     }
 }
 
+static uint16_t point_on_ball(mini_scene_t *m, const double v[3])
+{
+    enum { RADIUS = 16000, CENTRE = 16384 };
+    const double size = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+
+    return mini_vertex(m, CENTRE + (int32_t)lround(RADIUS * v[0] / size),
+            CENTRE + (int32_t)lround(RADIUS * v[1] / size),
+            CENTRE + (int32_t)lround(RADIUS * v[2] / size));
+}
+
+/* One face of an octahedron, its sides cut into parts, blown up. Fronts look
+ * inward. Corners on the sides are there twice, but equal, so it is closed. */
+static void blow_up(mini_scene_t *m, const double corner[3][3], int parts,
+        uint16_t material)
+{
+    uint16_t row[2][64];
+
+    for (int i = 0; i <= parts; i++) {
+        for (int j = 0; j <= i; j++) {
+            double v[3];
+
+            for (int k = 0; k < 3; k++) {
+                v[k] = corner[0][k] * (parts - i) + corner[1][k] * (i - j) +
+                       corner[2][k] * j;
+            }
+            row[i & 1][j] = point_on_ball(m, v);
+        }
+        for (int j = 0; i > 0 && j < i; j++) {
+            const uint16_t *const above = row[(i - 1) & 1], *const below =
+                                                                    row[i & 1];
+
+            mini_face(m, above[j], below[j + 1], below[j], material);
+            if (j + 1 < i) {
+                mini_face(m, above[j], above[j + 1], below[j + 1], material);
+            }
+        }
+    }
+}
+
+void mini_ball(mini_scene_t *m, int parts, uint16_t material)
+{
+    for (int octant = 0; octant < 8; octant++) {
+        const double x = octant & 1 ? -1 : 1, y = octant & 2 ? -1 : 1;
+        const double z = octant & 4 ? -1 : 1;
+        const bool odd = x * y * z < 0;
+        const double corner[3][3] = {{x, 0, 0}, {0, odd ? 0 : y, odd ? z : 0},
+                {0, odd ? y : 0, odd ? 0 : z}};
+
+        blow_up(m, corner, parts, material);
+    }
+}
+
 static void put_wide(uint32_t words[2], double value)
 {
     const int64_t q32 = (int64_t)floor(ldexp(value, 32) + 0.5);

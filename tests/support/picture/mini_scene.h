@@ -142,6 +142,10 @@ void mini_quad(mini_scene_t *m, const int32_t a[3], const int32_t b[3],
 void mini_room(mini_scene_t *m, const int32_t low[3], const int32_t high[3],
         uint16_t material);
 
+/* A ball around the middle of the box that faces inwards: eight triangles, the
+ * sides of each cut into parts (63 at most). */
+void mini_ball(mini_scene_t *m, int parts, uint16_t material);
+
 /* Look from a point, every ray along one direction of components below 2 in
  * size: all samples of all pixels meet the same point. */
 void mini_eye(mini_scene_t *m, double x, double y, double z);
