@@ -21,7 +21,8 @@ test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
 support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \
     tests/known/double/double_pt.c tests/bench/rays/bench_rays.c \
     tests/bench/rays/float_pt.c $(lib_src) \
-    $(filter-out %_main.c,$(wildcard tools/scene/*.c tools/scene/*/*.c))
+    $(filter-out %_main.c,$(wildcard tools/scene/*.c tools/scene/*/*.c)) \
+    $(wildcard tools/figure/*.c)
 # It renders every feature, so it needs a core that has every one.
 reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c)) \
     tests/known/double/rounding.c
@@ -109,6 +110,8 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/open_blob|tests/tools/lib/test_open_blob.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/scene/test_scene.sh; \
+    tools/lines|tests/tools/scene/test_lines.sh; \
+    tools/info|tests/tools/scene/test_info.sh; \
     tools/lut|tests/tools/test_lut.sh; \
     tools/warp|tests/tools/test_warp.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \

@@ -2,10 +2,12 @@
 /* SPDX-License-Identifier: MIT */
 
 /* usage: stream FORMAT WIDTH HEIGHT [status N] [flip BYTE] [cut BYTE]
- *               [drop LINE] [twice LINE] [noise] > stream
+ *               [drop LINE] [twice LINE] [noise] [ticks N] [hz N] [beyond Y]
+ *               > stream
  * The picture is red = x, green = y, blue = x ^ y in RGB888; in other formats
  * byte i of line y is 16 y + i. flip inverts a byte of the stream, cut ends it
- * before one, noise puts half frames and false marks between frames. */
+ * before one, noise puts half frames and false marks between frames, beyond
+ * sends a line of a number that the picture does not have. */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +53,7 @@ int main(int argc, char **argv)
     static uint8_t frame[QL_STREAM_FRAME_BYTES(UINT16_MAX)];
     ql_settings_t settings = QL_SETTINGS_DEFAULT;
     ql_stream_end_t end = {QL_OK, {7, 6, 5, 4, 3}, 3000, 1000000};
-    long flip = -1, cut = -1, drop = -1, twice = -1;
+    long flip = -1, cut = -1, drop = -1, twice = -1, beyond = -1;
     bool noise = false;
     ql_format_t format;
 
@@ -67,7 +69,10 @@ int main(int argc, char **argv)
         cut = strcmp(argv[i], "cut") == 0 ? n : cut;
         drop = strcmp(argv[i], "drop") == 0 ? n : drop;
         twice = strcmp(argv[i], "twice") == 0 ? n : twice;
+        beyond = strcmp(argv[i], "beyond") == 0 ? n : beyond;
         noise = strcmp(argv[i], "noise") == 0 || noise;
+        end.ticks = strcmp(argv[i], "ticks") == 0 ? (uint32_t)n : end.ticks;
+        end.tick_hz = strcmp(argv[i], "hz") == 0 ? (uint32_t)n : end.tick_hz;
         end.status =
                 strcmp(argv[i], "status") == 0 ? (ql_status_t)n : end.status;
     }
@@ -83,6 +88,9 @@ int main(int argc, char **argv)
         if (noise) {
             append_noise(frame);
         }
+    }
+    if (beyond >= 0) {
+        append_line(frame, format, settings.width, (uint16_t)beyond);
     }
     append(frame, ql_stream_end(frame, &end));
 

@@ -118,6 +118,81 @@ say text_from_the_board_is_shown $?
 receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm"
 say second_header_begins_again $?
 
+# ---- Every figure, as the stream has it
+
+# figures KEY=VALUE...: those of a whole stream, but for these
+figures() {
+    cat >"$dir/figures" <<'END'
+width: 5
+height: 4
+spp: 16
+seed: 0
+status: 0
+paths: 7
+closest-rays: 6
+shadow-rays: 5
+saturated: 4
+ticks: 3000
+tick-hz: 1000000
+faint: 3
+nanoseconds: 3000000
+duplicate-lines: 0
+bad-frames: 0
+skipped-bytes: 0
+END
+    for other in "$@"; do
+        sed "s/^${other%=*}: .*/${other%=*}: ${other#*=}/" "$dir/figures" \
+            >"$dir/err" && cat "$dir/err" >"$dir/figures"
+    done
+    cmp "$dir/figures" "$dir/out"
+    same=$?
+    rm "$dir/figures"
+    return $same
+}
+"$stream" 0 5 4 >"$dir/s"
+receive 0 && figures
+say figures_are_those_of_the_board $?
+"$stream" 0 5 4 noise >"$dir/s" # half a frame and 11 bytes, four times
+receive 0 && figures bad-frames=4 skipped-bytes=68
+say bytes_and_frames_that_are_none_are_counted $?
+"$stream" 0 5 4 twice 2 >"$dir/s"
+receive 0 && figures duplicate-lines=1
+say lines_sent_twice_are_counted $?
+while read -r ticks hz nanoseconds; do
+    "$stream" 0 5 4 ticks "$ticks" hz "$hz" >"$dir/s"
+    receive 0 && figures "ticks=$ticks" "tick-hz=$hz" "nanoseconds=$nanoseconds"
+    say "${ticks}_ticks_of_${hz}_a_second_are_right" $?
+done <<'END'
+4294967295 1 4294967295000000000
+4294967295 1000000 4294967295000
+4294967295 4294967295 1000000000
+4294967 1000000000 4294967
+1 3 333333333
+5 0 0
+END
+
+# ---- Headers and lines that make no sense under a right CRC
+
+for head in '0 0 4' '0 4 0' '0 16385 1' '0 1 16385' '5 4 4'; do
+    # shellcheck disable=SC2086 # three arguments
+    "$stream" $head >"$dir/s"
+    # shellcheck disable=SC2086
+    receive 2 && [ "$(cat "$dir/err")" = "qlux-recv: header: $(set -- $head
+        echo "$2 x $3 pixels of format $1"): expected sides of 1 to 16384 and \
+a format below 5" ]
+    say "header_$(echo "$head" | tr ' ' _)_is_refused" $?
+done
+for y in 4 5 65535; do
+    "$stream" 0 5 4 beyond $y >"$dir/s"
+    receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" && figures bad-frames=1
+    say "line_${y}_of_4_is_counted_and_left_out" $?
+done
+# It does not stand for the line that is missing.
+"$stream" 0 5 4 drop 2 beyond 4 >"$dir/s"
+receive 2 && [ "$(cat "$dir/err")" = "lines 2 are missing
+qlux-recv: $dir/s: 3 of 4 lines arrived" ]
+say line_beyond_is_none_of_those_that_arrived $?
+
 # One pixel of each format, from the definition of each.
 pixel() {
     "$stream" "$1" "$2" 1 >"$dir/s"

@@ -259,6 +259,57 @@ say a_failed_merge_leaves_nothing $?
 "$sim" scene.qlb --save-sums n.qls $small --stats >stats.txt
 grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 8 ]
 say stats_are_eight_numbers $?
+# One ray from the eye, one to the lamp, a path; times a weight that a dump was
+# given all three channels of all sixteen are cut.
+"$build/qlux-scene" "$root/tests/scenes/square.scene" -o square.qlb --quiet
+"$build/qlux-scene" --dump square.qlb >square.txt
+sed 's/^\(l .*\) -33 /\1 -10 /' square.txt >cut.txt
+"$build/qlux-scene" cut.txt -o cut.qlb --quiet
+one="--size 4x4 --spp 1 --bounces 0 --direct area --quiet"
+# stats SCENE PROGRAM PRECISION SATURATED: every line
+stats() {
+    "$build/$2" "$1" -o n.ppm $one --stats >stats.txt 2>err.txt
+    sed 's/^seconds: [0-9]*\.[0-9][0-9][0-9]$/seconds: S/' stats.txt >out.txt
+    { printf '%s\n' 'paths: 16' 'closest-rays: 16' 'shadow-rays: 16' \
+        'rays-per-path: 2.000'
+      [ -z "$4" ] || printf '%s\n' "saturated: $4" 'faint: 0'
+      printf '%s\n' 'seconds: S' "precision: $3"; } | cmp -s - out.txt &&
+        [ ! -s err.txt ]
+    say "$2_says_each_figure_of_$1" $?
+}
+stats square.qlb qlux-sim fine 0
+stats square.qlb qlux-sim-draft draft 0
+stats square.qlb qlux-ref double ''
+stats cut.qlb qlux-sim fine 48
+stats cut.qlb qlux-sim-draft draft 48
+"$sim" cut.qlb -o n.ppm $one >out.txt 2>err.txt
+[ $? -eq 0 ] && [ ! -s out.txt ] && [ "$(cat err.txt)" = \
+    'qlux-sim: warning: 48 contributions were cut at their limit' ]
+say contributions_that_are_cut_are_a_warning $?
+"$sim" square.qlb -o n.ppm $one >out.txt 2>err.txt
+[ $? -eq 0 ] && [ ! -s out.txt ] && [ ! -s err.txt ]
+say without_them_nothing_is_said $?
+# In a closed room of white walls every path has all of its rays.
+"$build/qlux-scene" "$root/tests/scenes/furnace.scene" -o room.qlb --quiet
+"$sim" room.qlb -o n.ppm $small --direct none --bounces 3 --stats |
+    head -n 4 >stats.txt
+[ "$(tr '\n' ' ' <stats.txt)" = "paths: 2240 closest-rays: 8960 \
+shadow-rays: 0 rays-per-path: 4.000 " ]
+say a_path_of_three_reflections_has_four_rays $?
+"$sim" scene.qlb -o n.ppm $small --stats | awk '
+    /^(paths|closest-rays|shadow-rays|rays-per-path): /{ n[$1] = $2 }
+    END { p = n["paths:"]; c = n["closest-rays:"]; s = n["shadow-rays:"]
+        exit !(c > p && s > 0 && s != c && p > 0 && p <= 2240 &&
+            n["rays-per-path:"] == sprintf("%.3f", (c + s) / p)) }'
+say rays_of_a_path_are_both_kinds $?
+# A camera whose rays begin further away than numbers reach.
+sed 's/^pr 0x0*/pr 0x3fffffff/' square.txt >far.txt
+"$build/qlux-scene" far.txt -o far.qlb --quiet &&
+    "$sim" far.qlb -o no.ppm $one >out.txt 2>err.txt
+[ $? -eq 1 ] && [ ! -e no.ppm ] && [ "$(cat err.txt)" = \
+    'qlux-sim: a render setting is out of range (see --help)' ]
+say a_bad_setting_is_named $?
+
 "$sim" scene.qlb -o n.ppm --size 20x14 --spp 256 --error 0.2 --quiet --stats \
     >stats.txt
 awk '/^paths: /{p = $2} /^samples-per-pixel: /{s = $2}

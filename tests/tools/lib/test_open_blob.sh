@@ -67,6 +67,22 @@ patch 12 '\0001\0002\0003\0004'
 says another_checksum "byte 12: the blob's CRC-32 does not match its \
 contents: expected $crc, found 04030201"
 
+mended() { # OFFSET HEX: the same with the check value of what is there
+    "$build/test/fine/tools/sums/patch_main" good.qlb "$1" "$2" >bad.qlb
+}
+lacks='the scene needs a feature this build lacks'
+mended 19 80
+says another_feature "byte 16: $lacks: unknown"
+mended 4 0200
+says the_next_version "byte 4: the blob's version is not the one this build \
+reads: expected version 1, found 2"
+mended 6 60
+says tables_of_other_features "byte 6: the blob's version is not the one this \
+build reads: expected the tables of its features, found a header of 96 bytes"
+mended 20 2100
+says too_deep_a_tree_for_every_program "byte 20: the BVH is deeper than this \
+build's stack: expected a depth of 32 or less, found 33"
+
 makes too_deep_a_tree "byte 20: the BVH is deeper than this build's stack: \
 expected a depth of 32 or less, found 33" 's/^depth .*/depth 33/'
 range='an offset, index, count or value is out of range'

@@ -100,6 +100,17 @@ TEST(counters_of_all_threads_add_up)
     }
 }
 
+/* As many as a large picture has: 1.8e10. */
+TEST(more_samples_than_32_bits_count_are_counted)
+{
+    const sums_range_t range = {0, HEIGHT, 0, 1u << 24};
+    static job_t job;
+
+    CHECK(run(&job, &range, 1u << 24, 2, 0), "%s", "not all were done");
+    CHECK(job.samples == (uint64_t)WIDTH * HEIGHT << 24, "collected %llu",
+            (unsigned long long)job.samples);
+}
+
 /* The last claim: nothing runs after a signal. */
 TEST(a_signal_stops_within_a_step)
 {
@@ -119,6 +130,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("tools/lib/test_rows", argc, argv);
     RUN(every_sample_is_drawn_once_and_in_order);
     RUN(counters_of_all_threads_add_up);
+    RUN(more_samples_than_32_bits_count_are_counted);
     RUN(a_signal_stops_within_a_step);
     return TEST_END();
 }
