@@ -34,9 +34,7 @@ fi
 parts()
 {
     cat << 'END'
-^(golden$|matrix)|every compiler and processor: same bits, no float, no state
-^objects|no float, no state, no foreign function in any object
-^extreme/build|extremes have the same bits in every build
+^matrix/|every compiler and processor: same bits, no float, no state
 ^configs/|gates: pairs and triples are all there, build and link
 ^golden/|gates change no bit of a picture
 ^boards|boards draw the simulator's bits; panel, stack, faults
@@ -48,7 +46,7 @@ parts()
 ^(fine|draft)/unit/|arithmetic and structures keep their bounds
 ^(fine|draft)/extreme/|nothing breaks at the edges
 ^fine/tools/|parts of programs
-^tools/|programs: messages, exit codes, files
+^(tools|extreme)/|programs: messages, exit codes, files
 ^lint/|layers, shape, documents, format
 ^[a-z0-9]*/unit/|arithmetic and structures with every pair of gates
 END

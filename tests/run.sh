@@ -31,8 +31,7 @@ usage()
 cpu_of() # NAME
 {
     case $1 in
-    boards* | bench* | mutants* | golden* | objects* | extreme/build* | \
-        configs/triples | tools/trade) echo "${JOB_CPU:-1800}" ;;
+    boards* | bench* | mutants* | tools/trade) echo "${JOB_CPU:-1800}" ;;
     *) echo "${JOB_CPU:-300}" ;;
     esac
 }

@@ -100,7 +100,8 @@ $(golden_blobs): tests/golden/scenes.sh $O/qlux-scene $(wildcard tests/scenes/*)
 	$(call step,SCENES,$(@D))tests/golden/scenes.sh $O/qlux-scene $(@D) && \
 	    touch $@
 jobs_gates := golden/gates|tests/golden/some.sh $(others); \
-    configs/triples|tests/configs/test_gates.sh --triples; \
+    configs/triples-1|tests/configs/test_gates.sh --triples 1/2; \
+    configs/triples-2|tests/configs/test_gates.sh --triples 2/2; \
     configs/tables|tests/configs/test_tables.sh; \
     configs/gates|tests/configs/test_gates.sh;
 jobs_configs = $(jobs_gates) $(shell tests/configs/jobs.sh $(programs_configs))
@@ -133,9 +134,12 @@ jobs_boards := boards|tests/boards/test_boards.sh; \
     bench|tests/bench/test_bench.sh;
 jobs_mutants := $(foreach k,1 2 3 4,mutants/$k-of-4|tests/mutants/run.sh \
     --share $k-of-4;)
-jobs_matrix := golden|tests/golden/run_matrix.sh; \
-    objects|tests/lint/check_objects.sh; \
-    extreme/build|tests/extreme/extreme_build.sh;
+# What users build, fine and draft by this machine's compiler, has the goldens
+# too.
+whole := $(foreach c,fine draft,$O/test/$(c)/golden/golden)
+jobs_matrix = $(shell tests/matrix/run_matrix.sh --jobs) \
+    extreme/programs|tests/extreme/extreme_programs.sh; \
+    golden/whole|tests/golden/some.sh fine draft;
 
 # What scripts run beside the programs.
 helpers := $(patsubst tests/%.c,$O/test/fine/%,$(wildcard \
@@ -159,7 +163,7 @@ test: ## Run everything, on this PC and on every emulated board
 test-all: $(programs) $(helpers) $O/cornell.qlb \
     $O/mesh.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
-    $(programs_configs) $(programs_golden) $(golden_blobs)
+    $(programs_configs) $(programs_golden) $(whole) $(golden_blobs)
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(strip \
 	    )$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
 
@@ -218,7 +222,7 @@ docs: ## Bring the generated file lists up to date
 	tests/lint/check_docs.sh --write
 
 golden-update: ## Rewrite the checksums of the golden pictures
-	tests/golden/run_matrix.sh --update
+	tests/matrix/run_matrix.sh --update
 
 .PHONY: test test-all test-quick test-known test-san test-configs test-mutants \
     test-seeds error-budget lint check format configs-update docs golden-update

@@ -194,8 +194,8 @@ static unsigned make_flat_lamp(const int32_t to[3][3])
     return at;
 }
 
-/* The blob that qlux-scene writes has none: extreme_build.sh. A blob that has
- * is opened, as nothing in it leads outside; then it must be harmless. */
+/* The blob that qlux-scene writes has none: extreme_programs.sh. A blob that
+ * has is opened, as nothing in it leads outside; then it must be harmless. */
 TEST(case_06_triangles_without_area_are_never_hit_and_shine_nothing)
 {
     static const int32_t flat[4][3][3] = {

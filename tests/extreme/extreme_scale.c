@@ -410,7 +410,7 @@ TEST(a_camera_1e6_scene_sizes_away_sees_what_one_at_1e3_sees)
 /* ---- Orders ------------------------------------------------------------ */
 
 /* Pixels and samples in any order, in tiles, rows backwards, one by one: sums
- * are integers. Compilers and machines: extreme_build.sh. */
+ * are integers. Compilers and machines: tests/matrix. */
 TEST(case_55_tiles_rows_and_samples_in_any_order_give_the_same_bits)
 {
     const ql_settings_t s = estimate_settings(QL_SAMPLER_SOBOL, 4, 11);

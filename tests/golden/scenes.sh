@@ -7,7 +7,8 @@
 # Writes DIR/16/NAME.qlb and DIR/8/NAME.qlb, the same scene with nodes of both
 # widths: the scenes of tests/scenes, and a corner of a room, once plain and
 # once with each feature alone, so that a build that lacks all others can draw
-# it.
+# it. DIR/digest.bin is some of them in a row, as tests/matrix/digest_main.c
+# reads them.
 #
 # Example: tests/golden/scenes.sh build/qlux-scene build/golden
 
@@ -111,3 +112,18 @@ END
 corner map << 'END'
 sky corner.pfm rotate 30
 END
+
+# ---- In a row, nodes of either width in turn ----
+
+le32() # NUMBER: as four bytes, the lowest first
+{
+    # shellcheck disable=SC2059  # the format is made here
+    printf "$(printf '\\%03o\\%03o\\%03o\\%03o' $(($1 & 255)) \
+        $(($1 >> 8 & 255)) $(($1 >> 16 & 255)) $(($1 >> 24 & 255)))"
+}
+
+for blob in 8/cornell 16/glossy 8/sky 16/lens 8/smooth 16/strategies; do
+    le32 "$(wc -c < "$dir/$blob.qlb")"
+    cat "$dir/$blob.qlb"
+done > "$dir/digest.bin"
+le32 0 >> "$dir/digest.bin"
