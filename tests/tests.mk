@@ -33,8 +33,8 @@ support_of = $(if $(filter $(full),$(1)),$(support) $(reference), \
 
 # What the product has is not compiled twice: the core, and what tools share.
 core_of = $(if $(filter fine draft,$1),$O/$1,$O/test/$1)
-support_from = $(if $(filter fine/tools/lib/% fine/tools/scene/%,$1/$2),$O/host, \
-    $O/test/$1)
+support_from = $(if $(filter fine/tools/lib/% fine/tools/scene/%,$1/$2), \
+    $O/host,$O/test/$1)
 
 # Under configuration $1: the core, what tests share, and every test.
 define rules_of

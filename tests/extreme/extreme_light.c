@@ -63,7 +63,7 @@ static void check_black(uint8_t bounces, uint32_t samples, const char *what)
         uint64_t sum;
 
         if (is_built(direct)) {
-            sum = estimate_brightest(&m, &s, samples);
+            sum = estimate_brightest(&m, &s, MANY(samples));
             CHECK(sum == 0, "%s, direct %u: %llu", what, direct,
                     (unsigned long long)sum);
         }
@@ -83,7 +83,7 @@ static void check_mean(
     if (!is_built(direct)) {
         return;
     }
-    got = estimate_pixel(&m, &s, 0, 0, samples);
+    got = estimate_pixel(&m, &s, 0, 0, MANY(samples));
     z = estimate_z(&got, want * RADIANCE, stats_variance(&got));
     CHECK(fabs(z) < STATS_Z_MAX, "%s, direct %u: %.9f, want %.9f, z %.1f", what,
             direct, got.mean / RADIANCE, want, z);
@@ -312,7 +312,7 @@ static uint64_t cut_samples(
     mini_open(&m, &scene);
     CHECK(ql_render_init(&r, &scene, &s) == QL_OK, "settings");
     *most = 0;
-    for (uint32_t i = 0; i < 1ul << 20; i++) {
+    for (uint32_t i = 0; i < MANY(1ul << 20); i++) {
         ql_sum_t sum = {{0, 0, 0}};
 
         ql_render_pixel(&r, 0, 0, i, 1, &sum);
@@ -338,8 +338,8 @@ TEST(case_28_samples_next_to_the_surface_are_cut_counted_and_never_wrap)
     CHECK(cut_samples(8, 0.999, &counted, &scaled) == 0 && counted == 0,
             "with a unit 2^8 times as large %lu are counted",
             (unsigned long)counted);
-    NOTE("%llu of 3 2^20 cut and counted; the largest is %.0f 2^8",
-            (unsigned long long)cut, scaled);
+    NOTE("%llu of 3 times %lu cut and counted; the largest is %.0f 2^8",
+            (unsigned long long)cut, MANY(1ul << 20), scaled);
 }
 
 /* ---- A surface of our own ---------------------------------------------- */

@@ -287,7 +287,7 @@ TEST(case_43_roulette_changes_no_mean_and_no_path_of_albedo_1_dies)
     static const double albedos[][3] = {{0.75, 0.75, 0.75}, {1, 0.25, 0},
             {0.1, 0.1, 0.1}, {0x1p-20, 0x1p-20, 0}, {0x1p-31, 0, 0}};
     static const double unit[3] = {1, 1, 1}, white[3] = {1, 1, 1};
-    const uint32_t n = 1u << 14;
+    const uint32_t n = MANY(1u << 14);
     double worst = 0;
     uint32_t rays;
 
