@@ -14,9 +14,10 @@
  * ends. Each test is necessary for a hit, and none needs a division.
  *
  * Draft: o and d are the ray's own integers, so the line tests are exact.
- * Fine: o and d are rounded, by 1/2 at most, so |g_x d_z - g_z d_x| errs by
- * at most (|g_x| + |g_z| + |d_x| + |d_z| + h_x + h_z) / 2 + 1 <= 3 2^15, the
- * margin below.
+ * Fine: o and d are rounded, by 1/2 at most. A ray that hits passes a point p of
+ * the box inside the grid, so (p - o) x d = 0 in that plane, and with o and d
+ * rounded it is (|p_x - o_x| + |p_z - o_z| + |d_x| + |d_z|) / 2 at most, d as
+ * rounded: below 2^16, the margin below. For p the box has room of its own.
  *
  * Bounds: c, o <= 32767, |d| <= 2^15, h <= 2^14. c_x d_z - c_z d_x and the same
  * of o are below 2^31 in size; their difference is the exact g product, taken
@@ -31,7 +32,7 @@
 #if QL_POS_BITS == 0
 #define MARGIN 0
 #else
-#define MARGIN 98304l
+#define MARGIN 65536l
 #endif
 
 /* The integers an interval holds, as the test wants them: low..low + span. */

@@ -304,6 +304,51 @@ static void test_refusals(void)
             "a_damaged_blob_is_named_in_the_stream");
 }
 
+/* Put a feature into the blob that no build has, and mend its checksum. */
+static void change_features(void)
+{
+    ql_blob_header_t *const h = test.blob;
+
+    h->features ^= QL_LE32(0x80000000u);
+    h->crc32 = QL_LE32(ql_crc32(0, (uint8_t *)test.blob + QL_BLOB_CRC_FROM,
+            test.blob_size - QL_BLOB_CRC_FROM));
+}
+
+/* A line of text goes before the last frame, if the build has texts; wherever
+ * the port fails, nothing but a part of it was sent. */
+static void test_missing(void)
+{
+    static const char said[] = "qlux: this build lacks unknown\n";
+    const size_t size = QL_CFG_DIAG ? sizeof said - 1 : 0;
+    const run_t r = {8, 8, PANEL_FORMAT, 1, 0, 0};
+    const sim_hal_result_t *const got = sim_hal_result();
+    bool ok, parts = true;
+    uint32_t calls;
+
+    change_features();
+    sim_fault_arm(0, SIM_FAULT_ONCE);
+    ok = run_app(&r) == QL_ERR_FEATURE;
+    calls = sim_fault_calls();
+    ok = ok &&
+         got->serial_size == size + QL_STREAM_FRAME_BYTES(QL_STREAM_END_BYTES);
+    ok = ok && memcmp(got->serial, said, size) == 0 &&
+         got->serial[size] == QL_STREAM_MARK0 &&
+         got->serial[size + 2] == QL_STREAM_END &&
+         ql_i32(le(got->serial + size + QL_STREAM_PREFIX, 4)) == QL_ERR_FEATURE;
+    check(ok, "a_feature_that_is_missing_is_named_in_a_line");
+    for (uint32_t at = 2; at <= calls; at++) { /* the first sets the HAL up */
+        sim_fault_arm(at, SIM_FAULT_STAYS);
+        parts = parts && run_app(&r) == QL_ERR_FEATURE &&
+                got->serial_size <= size &&
+                (got->serial_size == 0 ||
+                        memcmp(got->serial, said, got->serial_size) == 0);
+    }
+    sim_fault_arm(0, SIM_FAULT_STAYS);
+    check(parts && calls > QL_CFG_DIAG,
+            "a_line_that_cannot_be_sent_ends_there");
+    change_features();
+}
+
 /* One fault at every place where one can be. */
 static void test_faults(sim_fault_t fault, const char *claim)
 {
@@ -355,6 +400,7 @@ int main(void)
         test_panel();
         test_stop();
         test_refusals();
+        test_missing();
         test_faults(SIM_FAULT_ONCE, "every_glitch_of_the_hal_is_reported");
         test_faults(SIM_FAULT_STAYS, "every_breakdown_of_the_hal_is_survived");
     } else {

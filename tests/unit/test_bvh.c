@@ -552,6 +552,142 @@ TEST(boxes_shrunk_by_a_unit_are_detected)
 }
 #endif
 
+/* ---- The margin of the box test ---------------------------------------- */
+
+#if QL_POS_BITS > 0 && QL_CFG_NODE16
+
+/* 2^16 in ql_bvh.c: what rounding a ray changes of its line test. */
+#define MARGIN_PROVED 65536.0
+
+/* x, y, z moved on by so many axes, and mirrored in the box if asked. */
+static void turn(int32_t v[3], unsigned by, bool mirrored, int32_t max)
+{
+    const int32_t old[3] = {v[0], v[1], v[2]};
+
+    for (unsigned k = 0; k < 3; k++) {
+        v[(k + by) % 3] = mirrored ? max - old[k] : old[k];
+    }
+}
+
+/* To the grid, and to 15 bits: as the box test has a ray. */
+static double rounded_to(int32_t x, int32_t unit)
+{
+    return floor(((double)x + unit / 2) / unit);
+}
+
+/* How far off the rounded ray is from a point that the ray itself meets. */
+static double margin_needed(const int32_t o[3], const int32_t d[3],
+        const int32_t p[3], unsigned x, unsigned z)
+{
+    const int32_t up = d[z] < 0 ? -d[z] : d[z];
+    const int32_t unit = up > 2097151 ? 128 : 64;
+    const double side = d[z] < 0 ? -1 : 1;
+
+    return side *
+           ((p[x] - rounded_to(o[x], 256)) * rounded_to(d[z], unit) -
+                   (p[z] - rounded_to(o[z], 256)) * rounded_to(d[x], unit));
+}
+
+/* A ray across the box to just inside a corner of a small triangle, which is
+ * the corner of its box that the rounded ray is furthest from. Returns what
+ * margin the ray needs, as a part of the one proved; 0 if it is less than 0.7
+ * or the ray misses. */
+static double try_margin(void)
+{
+    static const int32_t to[2][2][3] = {
+            {{4, 3, -2}, {2, -3, -4}}, {{-4, 3, 2}, {-2, -3, 4}}};
+    const unsigned by = (unsigned)random_in(0, 2);
+    const bool mirrored = random_in(0, 1) != 0;
+    const double stretch = random_in(2600, 4190) / 8192.0;
+    int32_t o[3] = {random_in(0, 400) * 256 + 127 + random_in(0, 3),
+            random_in(0, QL_GRID_MAX * 256),
+            random_in(0, 400) * 256 + 127 + random_in(0, 3)};
+    int32_t corner[3] = {random_in(31000, 32700), random_in(100, 32000),
+            random_in(31000, 32700)};
+    int32_t v[3][3], d[3];
+    const unsigned x = by, z = (2 + by) % 3;
+    double needed;
+    ql_ray_t ray;
+    ql_hit_t hit;
+    uint64_t det, t;
+    unsigned side;
+
+    turn(o, by, mirrored, QL_GRID_MAX * 256);
+    turn(corner, by, mirrored, QL_GRID_MAX);
+    for (unsigned k = 0; k < 3; k++) {
+        d[k] = (int32_t)lround((corner[k] * 256.0 - o[k]) * stretch);
+    }
+    if (labs(d[z]) < labs(d[x]) || labs(d[z]) < labs(d[(1 + by) % 3]) ||
+            labs(d[z]) < 2097152) {
+        return 0;
+    }
+    needed = margin_needed(o, d, corner, x, z) / MARGIN_PROVED;
+    if (fabs(needed) < 0.75) {
+        return 0;
+    }
+    /* at the low end of x where the point is too far along x; d_x d_z > 0 */
+    side = needed > 0 ? 0 : 1;
+    for (unsigned i = 0; i < 3; i++) {
+        for (unsigned k = 0; k < 3; k++) {
+            v[i][(k + by) % 3] =
+                    corner[(k + by) % 3] + (i == 0 ? 0 : to[side][i - 1][k]);
+        }
+    }
+    /* aim at 1/64 of the way to the middle */
+    for (unsigned k = 0; k < 3; k++) {
+        const double aim =
+                corner[k] + (v[1][k] + v[2][k] - 2.0 * corner[k]) / 3 / 64;
+
+        d[k] = (int32_t)lround((aim * 256 - o[k]) * stretch);
+    }
+    needed = margin_needed(o, d, corner, x, z) / MARGIN_PROVED;
+    if (fabs(needed) < 0.7 || (needed > 0) != (side == 0)) {
+        return 0;
+    }
+
+    mini_begin(&mini);
+    mini.node_bits = 16;
+    mini.leaf_max = 1;
+    mini_triangle(&mini, v[0], v[1], v[2], mini_material(&mini, 0.5, 0));
+    for (int32_t i = 0; i < 3; i++) {
+        const int32_t a[3] = {9000 + 999 * i, 20000, 11000};
+        const int32_t b[3] = {9100 + 999 * i, 20000, 11000};
+        const int32_t c[3] = {9000 + 999 * i, 20100, 11000};
+
+        mini_triangle(&mini, a, b, c, 0);
+    }
+    mini_open(&mini, &scene);
+    ray.origin = vec(o[0], o[1], o[2]);
+    ray.direction = vec(d[0], d[1], d[2]);
+    for (unsigned i = 0; i < 4; i++) {
+        if (ql_tri_hit(&scene, scene.triangles + i, &ray, &det, &t) != 0) {
+            CHECK(ql_bvh_closest_hit(&scene, &ray, &hit) && hit.tri_idx == i,
+                    "a ray that needs %.3f of the margin is lost", needed);
+            return fabs(needed);
+        }
+    }
+    return 0;
+}
+
+TEST(rays_that_need_most_of_the_margin_are_found)
+{
+    unsigned long found = 0;
+    double most = 0;
+
+    state = 31;
+    for (long i = 0; i < MANY(400000); i++) {
+        const double needed = try_margin();
+
+        found += needed > 0;
+        most = fmax(most, needed);
+    }
+    CHECK(found > 20 && most > 0.8, "%lu rays, at most %.3f", found, most);
+    CHECK(most <= 1, "%.3f of the margin", most);
+    NOTE("%lu rays need 0.7 to %.3f of it", found, most);
+}
+
+#endif
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_bvh", argc, argv);
@@ -574,6 +710,9 @@ int main(int argc, char **argv)
     RUN(no_ray_leaves_a_displaced_sphere_by_its_edges);
 #if QL_CFG_NODE16
     RUN(boxes_shrunk_by_a_unit_are_detected);
+#endif
+#if QL_POS_BITS > 0 && QL_CFG_NODE16
+    RUN(rays_that_need_most_of_the_margin_are_found);
 #endif
     return TEST_END();
 }

@@ -8,8 +8,8 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 
-/* The products put together from halves, under names of their own, so that every
- * build tries both. */
+/* The products put together from halves, under names of their own, so that
+ * every build tries both. */
 #if QL_PORT_WIDE_MUL
 #define ql_mulhi_u32         halves_mulhi_u32
 #define ql_mulhi_u32_rounded halves_mulhi_u32_rounded
