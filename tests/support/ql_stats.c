@@ -183,6 +183,11 @@ double stats_mean_limit(
     return range + sqrt(range * range + 2 * most_variance * l / n);
 }
 
+double stats_sign_limit(double comparisons)
+{
+    return sqrt(2 * log(2 * comparisons / STATS_ALARM));
+}
+
 double stats_ks_uniform(const double *sorted, size_t n)
 {
     double d = 0;

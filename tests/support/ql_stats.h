@@ -10,6 +10,7 @@
  *   stats_z_limit()    normal, the standard deviation known
  *   stats_t_limit()    a mean of few that are normal, and their own spread
  *   stats_mean_limit() anything bounded, however rare its large values are
+ *   stats_sign_limit() anything whose signs are a matter of chance
  *
  * A fault that a claim has to reject has to be beyond the limit by as much
  * again, or chance decides whether it is: stats_.._limit() twice. */
@@ -40,6 +41,10 @@ double stats_t_limit(double comparisons, double replicates);
  * it is mean (most - mean) at most; variance may be less, or INFINITY. */
 double stats_mean_limit(double comparisons, double n, double mean, double most,
         double variance);
+
+/* |sum| over the root of the sum of squares, of values that are as likely to
+ * have the other sign, each for itself (Hoeffding's inequality). */
+double stats_sign_limit(double comparisons);
 
 /* Regularised upper incomplete gamma function Q(a, x); a > 0, x >= 0.
  * Relative error below 1e-10 where the result exceeds 1e-300. */

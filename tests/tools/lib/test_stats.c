@@ -2,6 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
@@ -46,11 +47,30 @@ TEST(means_of_rare_values_exceed_their_limit_seldom_enough)
     NOTE("%.1f standard errors, chance %.1g", off / sqrt(p / n), beyond);
 }
 
+/* Of n signs, exactly, for the n whose sum comes closest. */
+TEST(sums_of_signs_exceed_their_limit_seldom_enough)
+{
+    double most = 0;
+
+    for (int n = 30; n <= 400; n++) {
+        double beyond = 0, term = pow(0.5, n);
+
+        for (int k = 0; k <= n; k++) {
+            beyond += abs(2 * k - n) > stats_sign_limit(1) * sqrt(n) ? term : 0;
+            term *= (n - k) / (k + 1.0);
+        }
+        most = fmax(most, beyond);
+    }
+    CHECK(most < STATS_ALARM && most > STATS_ALARM / 100, "%.3g", most);
+    NOTE("chance %.1g", most);
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/test_stats", argc, argv);
     RUN(normal_limits_are_quantiles_of_the_tables);
     RUN(limits_of_students_t_are_its_quantiles);
     RUN(means_of_rare_values_exceed_their_limit_seldom_enough);
+    RUN(sums_of_signs_exceed_their_limit_seldom_enough);
     return TEST_END();
 }
