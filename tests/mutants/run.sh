@@ -148,10 +148,9 @@ sources_of()
     esac
     printf '%s\n' "${1-$killers}" | sed 's|^|tests/|; s| .*||; s|$|.c|' |
         sort -u
-    base=$built/test/$build
-    grep -rlF " $file" --include='*.d' "$base/firmware" \
-        "$base/tests/support" "$base/tools/scene" |
-        sed "s|^$base/||; s|d$|c|" |
+    grep -rlF " $file" --include='*.d' "$built/$build/firmware" \
+        "$built/test/$build/tests/support" "$built/host/tools/scene" |
+        sed "s|^$built/||; s|^test/||; s|^[a-z]*/||; s|d\$|c|" |
         if [ $# -eq 0 ]; then cat; else linked "$1"; fi
 }
 
@@ -367,8 +366,8 @@ all_tests()
         ;;
     *)
         ls tests/tools/*/test_*.c tests/unit/test_app.c
-        ls tests/tools/test_*.sh tests/tools/lib/*.sh tests/tools/scene/*.sh |
-            grep -v -e test_make -e test_trade -e test_stack
+        ls tests/tools/test_*.sh tests/tools/*/test_*.sh |
+            grep -v -e /dev/ -e test_make -e test_trade -e test_stack
         ls tests/known/double/known_ref.c
         ;;
     esac | sed 's|^tests/||; s|\.c$||'
@@ -564,8 +563,9 @@ case ${1:-} in
         $1 == "mutant" { build = "fine" }
         $1 == "build" { build = $2 }
         $1 == "killer" && !/\.sh / { print to build "/" $2 }' $list | sort -u
-    echo tools "$built/test/fine/tools/stream_main" "$built/cornell.qlb" \
-        "$built/mesh.qlb"
+    ls tests/tools/*_main.c tests/tools/*/*_main.c |
+        sed "s|^tests|$built/test/fine|; s|\.c$||"
+    echo tools "$built/cornell.qlb" "$built/mesh.qlb"
     ;;
 -*) sed -n '/^# usage/,/^# Example/s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
 '') count run_all ;;

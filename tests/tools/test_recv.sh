@@ -105,6 +105,16 @@ say missing_line_is_named $?
 receive 2 && grep -q 'lines 1 have a wrong CRC' "$dir/err"
 say line_with_wrong_crc_is_named $?
 
+# A damaged copy of a line that arrived says nothing of it: line 2 is missing.
+{
+    "$stream" 0 5 4 drop 2 | head -c 77
+    "$stream" 0 5 4 flip 63 | tail -c +52 | head -c 26
+    "$stream" 0 5 4 drop 2 | tail -c +78
+} >"$dir/s"
+receive 2 && grep -q 'lines 2 are missing' "$dir/err" &&
+    ! grep -q 'CRC' "$dir/err"
+say damaged_copy_of_a_line_that_arrived_is_harmless $?
+
 "$stream" 0 5 4 status -12 >"$dir/s"
 receive 2 && grep -q 'status -12: stopped by the user' "$dir/err"
 say status_of_the_board_is_reported $?
@@ -112,6 +122,11 @@ say status_of_the_board_is_reported $?
 { printf 'qlux: panic\n'; "$stream" 0 5 4; } >"$dir/s"
 receive 0 && grep -qx 'board: panic' "$dir/err"
 say text_from_the_board_is_shown $?
+
+{ printf 'qlux: a\001qlux: b\nno: c\nqlux: d\n'; "$stream" 0 5 4; } >"$dir/s"
+receive 0 && [ "$(grep board: "$dir/err" | tr '\n' ' ')" = \
+    'board: b board: d ' ]
+say text_begins_again_after_what_is_none $?
 
 # A restarted board sends its header again: only the last picture counts.
 { "$stream" 0 3 9 cut 60; "$stream" 0 5 4; } >"$dir/s"

@@ -79,6 +79,8 @@ has_size every_cell_is_as_wide_as_the_widest '83 31' \
     --text 1 a=red.ppm abc=red.ppm abc=red.ppm
 has_size columns_limit_the_width '46 54' \
     --text 1 --columns 2 a=red.ppm ab=red.ppm a=red.ppm c=red.ppm
+has_size more_columns_than_pictures_are_not_there '34 31' \
+    --text 1 --columns 9 a=red.ppm a=red.ppm
 has_size each_bar_begins_a_line '21 53' --text 1 'a|b|c=red.ppm'
 has_size the_highest_picture_sets_the_height '34 32' \
     --text 1 a=red.ppm b=tall.ppm
@@ -98,6 +100,12 @@ say the_second_is_to_its_right $?
 say the_third_begins_the_second_row $?
 [ "$(pixel s.ppm 0 0) $(pixel s.ppm 10 8)" = 'ffffff ffffff' ]
 say the_ground_is_white $?
+# The first one, of size 2, is on the rows 8 to 25 of 26 pixels each.
+"$sheet" -o one.ppm --text 1 --title 'H' --title ' ' =red.ppm
+"$sheet" -o two.ppm --text 1 --title 'H' --title 'H' =red.ppm
+cmp one.ppm two.ppm | awk '{ byte = $5 + 0 }
+    END { exit !(byte > 13 + 3 * 26 * 26) }'
+say a_second_title_is_below_the_first $?
 
 "$sheet" -o x.ppm --text 1 a=a=red.ppm && [ "$(size_of x.ppm)" = '33 31' ]
 say the_last_equals_sign_ends_the_label $?

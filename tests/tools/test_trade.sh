@@ -67,6 +67,18 @@ say the_drawing_names_axes_and_what_is_best $?
 say best_is_what_nothing_cheaper_is_better_than $?
 ! "$trade" good.csv --quiet | grep -q .
 say quiet_prints_nothing $?
+table exact.csv a,base,0.1,1000 a,base,0.05,2000
+"$trade" exact.csv | grep -q '10 %  a .* 0.001 M instructions.*10.00 %'
+say an_error_of_exactly_the_target_reaches_it $?
+table amp.csv 'a&b<c',base,0.1,10000
+"$trade" amp.csv -o amp.svg --quiet && grep -q '>a&amp;b&lt;c<' amp.svg &&
+    ! grep -q 'a&b' amp.svg
+say what_svg_means_otherwise_is_escaped $?
+# The line of the first choice is the only one of its width; it turns back.
+table back.csv a,base,0.5,10000 a,base,0.5,90000 a,base,0.5,40000
+"$trade" back.csv -o back.svg --quiet
+grep 'stroke-width="2.2"' back.svg | grep -q 'd="M[^L]*L[^L]*L[^L]*"/>'
+say a_line_that_turns_back_keeps_its_turn $?
 
 # The picture of the README, and its table, are of the numbers beside it.
 "$trade" "$root/tools/trade/trade.csv" -o drawn.svg >said.txt &&

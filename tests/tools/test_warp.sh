@@ -57,6 +57,8 @@ for m in -1 65536 nan x 1x ''; do
 done
 expect an_exponent_of_another_warp_is_code_1 1 'for cosine-power, not tent' \
     "$warp" test tent -m 2
+expect a_list_of_so_many_samples_is_code_1 1 "'list' goes without '--samples'" \
+    "$warp" list --samples 64
 expect a_list_of_one_warp_is_code_1 1 "unexpected argument 'tent'" \
     "$warp" list tent
 [ "$(ls | grep -v -e '^out.txt$' | wc -l)" -eq 0 ]

@@ -10,6 +10,7 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "qlux.h"
+#include "sample/ql_roulette.h"
 #include "warp/ql_warp_plane.h"
 
 enum { WIDTH = 32, HEIGHT = 24, SPP = 8 };
@@ -568,6 +569,32 @@ TEST(roulette_does_not_depend_on_the_lobe_drawn)
             "the same number for both would give 0.25 too");
     NOTE("mean %.4f, z = %.1f", m.mean, z);
 }
+
+/* Whichever it is: as its chance, and as what survivors are divided by. */
+TEST(roulette_looks_at_the_largest_channel)
+{
+    ql_sampler_t sampler;
+
+    ql_sampler_begin(&sampler, QL_SAMPLER_RANDOM, 3, 0, 0);
+    for (unsigned k = 0; k < 3; k++) {
+        unsigned survivors = 0;
+
+        for (uint32_t i = 0; i < 4096; i++) {
+            ql_rgb_t rgb = {{0, 0, 0}, 0};
+
+            rgb.c[k] = QL_UQ31_ONE / 4;
+            rgb.c[(k + 1) % 3] = QL_UQ31_ONE / 16;
+            ql_sampler_start(&sampler, i);
+            if (ql_roulette_survives(&sampler, 2, &rgb)) {
+                survivors++;
+                CHECK(fabs(ldexp(rgb.c[k], rgb.e - 31) - 1) < 0x1p-28,
+                        "channel %u: %.9f", k, ldexp(rgb.c[k], rgb.e - 31));
+            }
+        }
+        CHECK(fabs(survivors - 1024.0) < 5 * 27.8, "channel %u: %u of 4096", k,
+                survivors);
+    }
+}
 #endif
 
 #if SHADOW_RAYS
@@ -634,6 +661,7 @@ int main(int argc, char **argv)
 #endif
 #if ROULETTE
     RUN(roulette_does_not_depend_on_the_lobe_drawn);
+    RUN(roulette_looks_at_the_largest_channel);
 #endif
 #if SHADOW_RAYS
     RUN(a_light_behind_a_surface_costs_no_shadow_ray);

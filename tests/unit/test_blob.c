@@ -64,8 +64,9 @@ static void build_all(unsigned node_bits)
     static const double right[3] = {0.3, 0, 0}, up[3] = {0, 0.3, 0};
     static const double lens[2][2][3] = {
             {{300, 0, 0}, {0, 300, 0}}, {{-0.01, 0, 0}, {0, -0.01, 0}}};
-    static const double weights[8] = {1, 2, 0, 4, 5, 0, 7, 8};
-    static const uint16_t count[3] = {2, 2, 2};
+    static const double weights[16] = {
+            1, 2, 0, 4, 5, 0, 7, 8, 1, 1, 1, 1, 1, 1, 1, 1};
+    static const uint16_t count[3] = {2, 2, 2}, plane[2] = {8, 2};
     double rgb[32][3];
     uint16_t white, lamp, material[4];
     ql_scene_t scene;
@@ -109,6 +110,7 @@ static void build_all(unsigned node_bits)
     }
     if (QL_CFG_TABLES) {
         (void)mini_table(&mini, 3, count, weights);
+        (void)mini_table(&mini, 2, plane, weights);
     }
     if (QL_CFG_SKY_MAP) {
         mini_sky_map(&mini, 8, 4, (const double(*)[3])rgb, 0.3);
@@ -234,6 +236,30 @@ TEST(a_blob_cut_at_any_byte_is_truncated)
     cut_anywhere();
     build_all(MINI_BITS_MIN);
     cut_anywhere();
+}
+
+/* A byte to three more at its end, which no table holds. */
+TEST(a_size_that_is_no_multiple_of_4_is_refused)
+{
+    build(MINI_BITS_MAX);
+    for (uint32_t more = 0; more < 4; more++) {
+        const size_t size = mini.size_bytes + more;
+        uint8_t *copy = calloc(size, 1);
+        ql_scene_t scene;
+        ql_status_t status;
+
+        if (copy == NULL) {
+            exit(2);
+        }
+        memcpy(copy, mini.blob, mini.size_bytes);
+        copy[8] = (uint8_t)(size & 0xffu);
+        copy[9] = (uint8_t)(size >> 8 & 0xffu);
+        repair(copy, size);
+        status = open_copy(&scene, copy, size);
+        CHECK(status == (more == 0 ? QL_OK : QL_ERR_RANGE),
+                "%u bytes more: status %d", (unsigned)more, status);
+        free(copy);
+    }
 }
 
 TEST(an_unaligned_blob_is_refused)
@@ -692,7 +718,7 @@ TEST(a_blob_with_every_table_opens)
         CHECK(open_copy(&scene, copy, mini.size_bytes) == QL_OK, "%u bits",
                 bits);
         CHECK(scene.gloss_count == 3 && scene.light_count == 2 &&
-                        scene.table_count == 2 && scene.lens != NULL &&
+                        scene.table_count == 3 && scene.lens != NULL &&
                         scene.normals != NULL &&
                         QL_LE16(scene.lights[1].triangle) == QL_LIGHT_SKY,
                 "%u bits: %u glossy, %u lights, %u tables", bits,
@@ -784,7 +810,9 @@ TEST(every_rule_of_every_table_is_checked)
             {"a wide map", OPTIONAL_sky, IN(ql_blob_sky_t, 0, width), 0},
             {"a map of its size", OPTIONAL_sky, IN(ql_blob_sky_t, 0, height),
                     3},
-            {"a table", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table), 2},
+            {"a table", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table), 3},
+            {"a table of its height", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table),
+                    1},
             {"a table of its size", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table),
                     0},
             {"all texels", OPTIONAL_texels, COUNT, 4, 31},
@@ -795,10 +823,10 @@ TEST(every_rule_of_every_table_is_checked)
             {"1 beyond them", OPTIONAL_tables,
                     IN(ql_blob_distribution_t, 1, count[2]), 2},
             {"rows among the words", OPTIONAL_tables,
-                    IN(ql_blob_distribution_t, 1, first), 15},
+                    IN(ql_blob_distribution_t, 2, first), 33},
             {"a first word", OPTIONAL_tables,
                     IN(ql_blob_distribution_t, 0, first), 1000000},
-            {"all words", OPTIONAL_words, COUNT, 4, 49},
+            {"all words", OPTIONAL_words, COUNT, 4, 67},
             {"rows that are not empty", OPTIONAL_words, 0, 2, 0},
             {"one lens", OPTIONAL_lens, COUNT, 4, 0},
             {"a lens within reach", OPTIONAL_lens,
@@ -862,6 +890,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("unit/test_blob", argc, argv);
     RUN(a_good_blob_opens);
     RUN(a_blob_cut_at_any_byte_is_truncated);
+    RUN(a_size_that_is_no_multiple_of_4_is_refused);
     RUN(an_unaligned_blob_is_refused);
     RUN(any_flipped_bit_is_refused_with_the_right_status);
     RUN(a_feature_of_tomorrow_is_named_unknown);

@@ -245,6 +245,21 @@ TEST(glass_has_no_spread_and_filters_by_tf)
     CHECK(ql_rgb_most(&r) == 0, "reflects %.9f", channel(&r, 0));
 }
 
+TEST(what_glass_reflects_is_white)
+{
+    ql_bsdf_sample_t sample;
+
+    (void)set_glass(1.5);
+    gloss.specular[1] = uq31(0.25);
+    gloss.specular[2] = 0;
+    see_at(40);
+    CHECK(draw_glass(0, &sample) && !sample.through, "the least pick");
+    for (unsigned i = 0; i < 3; i++) {
+        CHECK(channel(&sample.weight, i) == 1, "channel %u: %.9f", i,
+                channel(&sample.weight, i));
+    }
+}
+
 #else
 
 TEST(no_surface_is_glass_where_that_is_not_built)
@@ -267,6 +282,7 @@ int main(int argc, char **argv)
     RUN(reflection_is_total_from_the_critical_angle_on);
     RUN(glass_is_reciprocal_and_keeps_energy);
     RUN(glass_has_no_spread_and_filters_by_tf);
+    RUN(what_glass_reflects_is_white);
 #else
     RUN(no_surface_is_glass_where_that_is_not_built);
 #endif

@@ -253,6 +253,21 @@ TEST(sums_of_the_largest_do_not_wrap)
     }
 }
 
+/* What is 2^32 times smaller still rounds up to 1, of one more bit to 0. */
+TEST(a_small_summand_is_rounded_to_its_last_bit)
+{
+    for (int k = 20; k < 40; k++) {
+        ql_rgb_t a = {{0x80000000u, 0x80000000u, 0x80000000u}, 0};
+        const ql_rgb_t b = {
+                {0xffffffffu, 0xffffffffu, 0xffffffffu}, (int16_t)-k};
+        const double exact = ldexp(0xffffffffu, -k - 1);
+
+        ql_rgb_add(&a, &b);
+        CHECK(a.c[0] - 0x40000000u == floor(exact + 0.5), "2^-%d: %08lx", k,
+                (unsigned long)a.c[0]);
+    }
+}
+
 /* A path of 64 bounces may be multiplied by 2^-4096 each time. Products keep
  * their largest channel in [2^30, 2^31). */
 TEST(products_of_ever_smaller_numbers_become_zero)
@@ -313,6 +328,7 @@ int main(int argc, char **argv)
     RUN(sums_are_within_an_ulp_of_2_to_the_minus_30);
     RUN(sums_with_zero_are_exact);
     RUN(sums_of_the_largest_do_not_wrap);
+    RUN(a_small_summand_is_rounded_to_its_last_bit);
     RUN(products_of_ever_smaller_numbers_become_zero);
     RUN(filters_round_to_nearest_and_keep_1);
     return TEST_END();

@@ -2,6 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
+#include <string.h>
 
 #include "support/picture/mini_scene.h"
 #include "support/ql_points.h"
@@ -311,6 +312,39 @@ TEST(shading_normals_face_the_side_they_were_seen_from)
     NOTE("%lu smooth, %lu flat; %lu seen from behind", smooth, flat, backs);
 }
 
+#if QL_CFG_PAGES
+/* The same triangle on the first page and on each other one. */
+TEST(corners_of_a_page_have_its_normals)
+{
+    enum { PAGE = 65536 };
+    static ql_blob_vertex_t vertices[3 * PAGE + 3];
+    static ql_blob_normal_t normals[3 * PAGE + 3];
+    ql_surface_t want, got;
+    ql_ray_t ray;
+    ql_hit_t hit;
+
+    state = 5;
+    do {
+        random_triangle(0.5, false);
+    } while (!random_hit(&ray, &hit));
+    ql_surface_at(&one.scene, &ray, &hit, &want);
+    CHECK(want.smooth, "flat");
+    one.scene.vertices = vertices;
+    one.scene.normals = normals;
+    for (uint16_t page = 1; page < 4; page++) {
+        memcpy(vertices + page * PAGE, one.vertices, sizeof one.vertices);
+        memcpy(normals + page * PAGE, one.normals, sizeof one.normals);
+        one.tri.material = QL_LE16((uint16_t)(page << 14));
+        ql_surface_at(&one.scene, &ray, &hit, &got);
+        CHECK(got.smooth && got.shade.x == want.shade.x &&
+                        got.shade.y == want.shade.y &&
+                        got.shade.z == want.shade.z,
+                "page %u", page);
+    }
+    one.tri.material = 0;
+}
+#endif
+
 TEST(a_corner_without_a_normal_makes_a_triangle_flat)
 {
     static const normal_t none = {0, 0, 0};
@@ -451,6 +485,9 @@ int main(int argc, char **argv)
     RUN(shading_normals_are_the_interpolated_ones);
     RUN(weights_of_the_wrong_corners_are_rejected);
     RUN(shading_normals_face_the_side_they_were_seen_from);
+#if QL_CFG_PAGES
+    RUN(corners_of_a_page_have_its_normals);
+#endif
     RUN(a_corner_without_a_normal_makes_a_triangle_flat);
     RUN(corner_normals_of_the_plane_give_the_plane);
     RUN(neighbours_have_the_same_normal_along_their_edge);

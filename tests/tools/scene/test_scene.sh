@@ -360,6 +360,8 @@ say tables_in_1_2_and_3_dimensions_are_those_of_their_weights $?
 # ---- OBJ ----
 bad_obj an_index_beyond_the_end_is_refused 6 'expected a vertex from 1 to 4' \
     'f 1 2 3\nf 1 2 5\n'
+bad_obj a_vertex_that_never_comes_is_named_at_its_face 5 \
+    'expected a vertex from 1 to 4, found 9' 'f 1 2 9\nf 1 2 3\no last\n'
 bad_obj a_negative_index_too_far_back_is_refused 5 'expected a vertex from -4' \
     'f -1 -2 -5\n'
 bad_obj index_0_is_refused 5 'expected a corner' 'f 0 1 2\n'
@@ -498,6 +500,28 @@ for m in d g e h; do printf 'usemtl %s\nf 1 2 3\n' $m; done >>in/a.obj
     sed -n 's/^m 0x\([0-9a-f]*\).*/\1/p' | tr '\n' ' ')" = \
     '1999999a 33333333 0ccccccd 26666666 ' ]
 say materials_with_gloss_come_first $?
+
+# ---- materials by their names ----
+# same_blob CLAIM: the scene in in/ gives the blob in/one.qlb
+same_blob() {
+    "$scene" in/a.scene -o in/two.qlb --quiet 2>err.txt &&
+        cmp -s in/one.qlb in/two.qlb
+    say "$1" $?
+}
+reset_input
+"$scene" in/a.scene -o in/one.qlb --quiet
+printf 'newmtl brighter\nKd 0.1 0 0\nKe 1000 1000 1000\n' >>in/a.mtl
+same_blob a_material_without_surfaces_changes_nothing
+reset_input
+printf 'newmtl w\nKd 0.1 0.2 0.3\nKe 9 9 9\n' >in/b.mtl
+cat in/a.mtl >>in/b.mtl
+mv in/b.mtl in/a.mtl
+same_blob the_last_definition_of_a_name_counts
+reset_input
+sed -i 's/newmtl w/newmtl w#2/' in/a.mtl
+sed -i 's/usemtl w/usemtl w#2/' in/a.obj
+printf 'newmtl w\nKd 0.1 0.2 0.3\n' >>in/a.mtl
+same_blob a_name_may_have_a_hash_in_it
 
 # ---- normals ----
 flat='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\n'
