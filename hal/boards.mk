@@ -18,7 +18,12 @@
 #   BOARD_FLASH  how to load a real board: $elf, $hex, $bin
 #
 # tools/dev/variables.txt has the variables that choose picture and firmware.
-# What the choice does not need is not built in: board_defines has the gates.
+# What the choice does not need is not built in: board_gates has the gates.
+#
+# A source is compiled only for choices that it reads. A board's firmwares share
+# the core's objects, in a folder for each command of the compiler, gates in it;
+# those of hal/ are in another, for QL_PORT_EMULATED. main() alone knows the
+# picture: it is the firmware's own.
 
 ifneq ($(BOARD),)
 OPT ?= $(if $(filter 1,$(SMALL)),-Os,$(or $(BOARD_OPT),-O2))
@@ -40,52 +45,71 @@ board_src := $(or $(FIRMWARE_SRC),$(foreach layer,$(layers),$(sort $(wildcard \
     firmware/$(layer)/*.c firmware/$(layer)/*/*.c)))) \
     $(sort $(filter-out hal/ql_main.c,$(wildcard hal/*.c))) $(BOARD_MAIN) \
     hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
-board_obj := $(patsubst %,$(board_name)/%.o,$(board_src))
-
-# Whole-program optimisation; three passes of it that make code longer are off.
-# Calls that only the compiler makes are not seen in time, so what they call is
-# compiled apart.
-board_apart := $(board_name)/hal/ql_mem.c.o
-ifeq ($(LTO),1)
-board_lto := -flto -flto-partition=one -fno-move-loop-invariants \
-    -fno-tree-dominator-opts -fno-tree-loop-im
-board_graphs := $(board_apart:.o=.ci) $(board_name).elf.ltrans0.ltrans.ci
-else
-board_graphs := $(patsubst %.o,%.ci,$(filter %.c.o,$(board_obj)))
-endif
 
 # A benchmark is a firmware too.
 ifneq ($(filter bench-board,$(MAKECMDGOALS)),)
 include tests/bench/bench_board.mk
 endif
 
-board_cc := $(BOARD_CROSS)gcc $(BOARD_CPU) $(OPT) $(board_lto) -std=c99 \
-    -pedantic -ffreestanding $(WARN) -Werror -ffunction-sections \
+# Whole-program optimisation; three passes of it that make code longer are off.
+ifeq ($(LTO),1)
+board_lto := -flto -flto-partition=one -fno-move-loop-invariants \
+    -fno-tree-dominator-opts -fno-tree-loop-im
+endif
+
+board_cc := $(strip $(BOARD_CROSS)gcc $(BOARD_CPU) $(OPT) $(board_lto) \
+    -std=c99 -pedantic -ffreestanding $(WARN) -Werror -ffunction-sections \
     -fdata-sections -fno-common -g -fno-asynchronous-unwind-tables \
     -fcallgraph-info=su -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
-    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' $(board_defines) $(board_bench) \
-    $(CFLAGS_BOARD)
+    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' $(board_gates) $(CFLAGS_BOARD))
+board_cc_hal := $(board_cc) $(board_port)
+board_cc_main := $(board_cc_hal) $(board_main) $(board_bench) $(FLAGS_MAIN)
 board_ld := $(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) \
     $(board_lto) -ffreestanding -g -fcallgraph-info=su) -nostdlib \
     -Wl,--gc-sections -Llinker -Wl,-T,$(BOARD_MCU).ld \
     -Wl,--defsym=ql_ld_stack_bytes=$(BOARD_STACK) \
     -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments
 
-board_flags := $(subst /,-,$(board_name:$O/%=%))
-$(call flags,$(board_flags),$(board_cc) $(board_ld) $(board_obj))
+# A folder of shared objects is named by a checksum of the command. Should two
+# commands have the same, the file of flags makes objects anew.
+board_sums := $(shell for command in $(call quote,$(board_cc)) $(call \
+    quote,$(board_cc_hal)); do printf %s "$$command" | cksum; done)
+board_core := $(BOARD)/core/$(word 1,$(board_sums))
+board_hal := $(BOARD)/core/$(word 3,$(board_sums))-hal
+board_own := $(board_name:$O/%=%)
+board_obj := $(foreach s,$(board_src),$O/$(if $(filter \
+    $(BOARD_MAIN) %.S,$s),$(board_own),$(if $(filter \
+    hal/%,$s),$(board_hal),$(board_core)))/$s.o)
+
+# Calls that only the compiler makes are not seen in time for optimisation of
+# the whole program, so what they call is compiled apart.
+board_apart := $O/$(board_hal)/hal/ql_mem.c.o
+board_graphs := $(if $(board_lto),$(board_apart:.o=.ci) \
+    $(board_name).elf.ltrans0.ltrans.ci,$(patsubst %.o,%.ci,$(filter \
+    %.c.o,$(board_obj))))
+
+# $(call board_objects,FOLDER,COMMAND): rules for $O/FOLDER/SOURCE.c.o.
+board_flags = $O/flags/$(subst /,-,$1)
+define board_objects
+$(call flags,$(subst /,-,$1),$2)
+$O/$1/%.c.o: %.c $(call board_flags,$1) $(BLOB).h
+	$$(call step,CC,$$<)mkdir -p $$(@D) && $2 $$(if $$(filter \
+	    $$@,$(board_apart)),-fno-lto) -MMD -MP -c $$< -o $$@
+endef
+$(eval $(call board_objects,$(board_core),$(board_cc)))
+$(eval $(call board_objects,$(board_hal),$(board_cc_hal)))
+$(eval $(call board_objects,$(board_own),$(board_cc_main)))
+$(call flags,$(subst /,-,$(board_own)).elf,$(board_ld) $(board_obj))
 
 firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
 	$(if $(silent),,@echo $<)
 
-$(board_name)/%.c.o: %.c $O/flags/$(board_flags) $(BLOB).h
-	$(call step,CC,$<)mkdir -p $(@D) && $(board_cc) $(if $(filter \
-	    $@,$(board_apart)),-fno-lto) -MMD -MP -c $< -o $@
-
-$(board_name)/%.S.o: %.S $O/flags/$(board_flags) $(BLOB).qlb
+$(board_name)/%.S.o: %.S $(call board_flags,$(board_own)) $(BLOB).qlb
 	$(call step,AS,$<)mkdir -p $(@D) && $(BOARD_CROSS)gcc $(BOARD_CPU) -c $< \
 	    -o $@ -DQL_BLOB_FILE='"$(BLOB).qlb"'
 
-$(board_name).elf: $(board_obj) linker/sections.ld linker/$(BOARD_MCU).ld
+$(board_name).elf: $(board_obj) $(call board_flags,$(board_own)).elf \
+    linker/sections.ld linker/$(BOARD_MCU).ld
 	$(call step,LD,$@)$(board_ld) $(board_obj) -lgcc -o $@
 
 $(board_name).hex: $(board_name).elf

@@ -52,7 +52,7 @@ bench: bench-boards bench-warps bench-strategies bench-pc
 PRECISIONS ?= draft fine
 
 # $(call on_boards,BOARDS,NAME,OPTIONS): run a benchmark on each board, in each
-# precision. Each NAME has its own folder of object files.
+# precision. NAME ends the names of the firmwares.
 define on_boards
 @for board in $(1); do for precision in $(PRECISIONS); do \
     $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
@@ -69,19 +69,23 @@ bench-boards: $O/$(scene).qlb
 	    $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
 	        EMULATED=1 VARIANT=-bench-float FLOAT=1 OPT=-O2 \
 	        $(call bench_main,bench_main.c rays/bench_rays.c rays/float_pt.c) \
-	        > $O/bench-float || exit; \
-	    grep ' float ' $O/bench-float; \
+	        > $O/$$board/bench-float || exit; \
+	    grep ' float ' $O/$$board/bench-float; \
 	done
 
 # WARP_BOARDS: where.
 WARP_BOARDS ?= $(BOARDS)
 
 bench-warps: ## Instructions per warp
-bench-warps: $O/$(scene).qlb $O/bench_tables.h $O/warps-pc $O/warps-pc-draft
+bench-warps: bench-warps-boards bench-warps-pc
+
+bench-warps-boards: $O/$(scene).qlb $O/bench_tables.h
 	$(call on_boards,$(WARP_BOARDS),warps,$(call \
 	    bench_main,warps/bench_warps.c warps/warp_list.c) STRATEGIES=1 LTO=0 \
 	    FIRMWARE_SRC='$(warps_src)' \
-	    CFLAGS_BOARD='-UQL_CFG_FEATURES_HEADER -I$O')
+	    CFLAGS_BOARD='-g0 -UQL_CFG_FEATURES_HEADER' FLAGS_MAIN=-I$O)
+
+bench-warps-pc: $O/warps-pc $O/warps-pc-draft
 	@tests/bench/warps/count_warps.sh $O/warps-pc-draft draft
 	@tests/bench/warps/count_warps.sh $O/warps-pc fine
 
@@ -92,8 +96,8 @@ STRATEGY_BOUNCES ?= 3
 bench-strategies: ## Instructions per path under each direct strategy
 bench-strategies: $O/$(scene).qlb
 	$(call on_boards,$(STRATEGY_BOARDS),strategies,$(call \
-	    bench_main,bench_strategies.c) STRATEGIES=1 \
-	    CFLAGS_BOARD='-DQL_BENCH_BOUNCES=$(STRATEGY_BOUNCES)')
+	    bench_main,bench_strategies.c) STRATEGIES=1 CFLAGS_BOARD=-g0 \
+	    FLAGS_MAIN='-DQL_BENCH_BOUNCES=$(STRATEGY_BOUNCES)')
 
 ifneq ($(BOARD),)
 bench-board: $(board_name).elf
@@ -112,5 +116,9 @@ bench-pc: $O/bench-pc $O/bench-pc-draft $O/$(scene).qlb $O/mesh.qlb
 strategies: ## Noise and cost of each direct strategy, as a table and a picture
 	@MAKE='$(MAKE)' tools/sheet/strategies.sh $(STRATEGY_OPTIONS)
 
-.PHONY: bench bench-boards bench-board bench-pc bench-warps bench-strategies \
+budgets-update: ## Write what is measured into tests/budgets
+	tests/bench/test_bench.sh --update $(BOARDS)
+
+.PHONY: bench bench-boards bench-board bench-pc bench-warps \
+    bench-warps-boards bench-warps-pc bench-strategies budgets-update \
     strategies

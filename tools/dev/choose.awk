@@ -9,8 +9,8 @@
 # "level N". The environment is looked at too.
 #
 # Prints assignments for make, words without blanks: every variable; sim_options
-# of the picture; with a BOARD, board_defines of its compiler. Or "error" and
-# one line that says what is wrong.
+# of the picture; with a BOARD, what its compiler defines. Or "error" and one
+# line that says what is wrong.
 
 function fail(text)
 {
@@ -218,9 +218,11 @@ function in_c(key)
     return of[key] ~ /^[a-z]+ / ? place(value[key], of[key]) : value[key]
 }
 
+# Who reads a macro is told by its name: every source, hal/ or main().
 function define(name, text)
 {
-    print "board_defines+=-D" name "=" text
+    print (name ~ /^QL_APP_/ ? "board_main" : name ~ /^QL_PORT_/ ? \
+        "board_port" : "board_gates") "+=-D" name "=" text
 }
 
 function print_gates(    settings, key, member, k, need, formats)

@@ -12,8 +12,7 @@ are the compiler's own library, are read from the disassembly. Recursion, a
 call through a pointer, a stack frame without a bound and a function nothing is
 known of are errors.
 
-Example: tools/dev/stack_report.sh --path build/microbit/cornell.elf \
-    arm-none-eabi-objdump $(find build/microbit/cornell -name '*.ci')
+Example: tools/dev/stack_report.sh --path x.elf arm-none-eabi-objdump x.ci
 END
 }
 

@@ -6,7 +6,9 @@
 #   scene_file     the path of the .scene; quote it for the shell
 #   scene_newer    FORCE if the scene, or what lies beside it, is newer
 #   sim_options    the picture in the words of qlux-sim
-#   board_defines  the picture and the gates, for the compiler of BOARD
+#   board_gates    for the compiler of BOARD: what every source reads,
+#   board_port     hal/ too,
+#   board_main     and main() alone
 #   board_indirect 1 if BOARD's firmware has paths beyond the first hit
 
 ifneq ($(or $(findstring $(space),$O),$(findstring ',$O)),)

@@ -31,7 +31,7 @@ trade_error = @$< $(wordlist 2,3,$^) $(ARGS) $(trade_done)
 trade_cost = @$(MAKE) -s --no-print-directory bench-board EMULATED=1 $(ARGS) \
     TRADE_RULES= \
     BOARD_MAIN='tests/bench/bench_settings.c tests/bench/bench_board.c' \
-    CFLAGS_BOARD='-I$(@D) -UQL_CFG_ADAPTIVE -DQL_CFG_ADAPTIVE=1 \
+    FLAGS_MAIN=-I$(@D) CFLAGS_BOARD='-g0 -UQL_CFG_ADAPTIVE -DQL_CFG_ADAPTIVE=1 \
     -UQL_CFG_SAMPLERS -DQL_CFG_SAMPLERS=3' $(trade_done)
 
 include $(TRADE_RULES)
