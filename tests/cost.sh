@@ -37,8 +37,8 @@ parts()
 ^matrix/|every compiler and processor: same bits, no float, no state
 ^configs/|gates: pairs and triples are all there, build and link
 ^golden/|gates change no bit of a picture
-^boards|boards draw the simulator's bits; panel, stack, faults
-^bench|instructions per ray and path, sizes, within budgets
+^boards|boards draw the simulator's bits; panel, stack, faults; budgets
+^bench|the float rival on this PC
 ^tools/trade|measured choices of accuracy and speed
 ^mutants|planted faults are seen
 ^(fine|draft)-san/|no undefined behaviour in any unit test

@@ -128,10 +128,13 @@ jobs_lint := lint/layers|tests/lint/check_layers.sh; \
     lint/docs|tests/lint/check_docs.sh; \
     lint/format|tests/lint/check_format.sh; \
     lint/lint|tests/tools/dev/test_lint.sh;
-jobs_boards := boards|tests/boards/test_boards.sh; \
+# A board's measurements use what its pictures compiled, so they come after.
+jobs_boards := $(foreach b,$(boards),boards/$b|tests/boards/test_boards.sh $b \
+    || failed=1 && tests/bench/test_bench.sh $b && [ -z "$$failed" ];) \
     tools/trade|tests/tools/test_trade.sh; \
-    boards/stack|tests/tools/test_stack_report.sh; \
-    bench|tests/bench/test_bench.sh;
+    bench/pc|tests/bench/test_bench.sh pc; \
+    boards/template|tests/boards/test_boards.sh template; \
+    boards/stack|tests/tools/test_stack_report.sh;
 jobs_mutants := $(foreach k,1 2 3 4,mutants/$k-of-4|tests/mutants/run.sh \
     --share $k-of-4;)
 # What users build, fine and draft by this machine's compiler, has the goldens
@@ -160,7 +163,15 @@ test: ## Run everything, on this PC and on every emulated board
 	    status=$$?; mkdir -p $O/test && times > $O/test/make.times; \
 	    exit $$status
 
-test-all: $(programs) $(helpers) $O/cornell.qlb \
+# What the boards' jobs share is made before them.
+scenes_boards := glossy sky lens smooth square strategies
+boards-ready: $(programs) $O/bench_tables.h
+	@for scene in $(scenes_boards); do $(MAKE) --no-print-directory \
+	    $O/$$scene.qlb SCENE=$$scene || exit; done
+	@$(MAKE) --no-print-directory TABLE_BITS=5 TABLE_LERP=0 \
+	    $O/qlux-sim-draft-nearest-5
+
+test-all: boards-ready $(programs) $(helpers) $O/cornell.qlb \
     $O/mesh.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
     $(programs_configs) $(programs_golden) $(whole) $(golden_blobs)
@@ -224,5 +235,6 @@ docs: ## Bring the generated file lists up to date
 golden-update: ## Rewrite the checksums of the golden pictures
 	tests/matrix/run_matrix.sh --update
 
-.PHONY: test test-all test-quick test-known test-san test-configs test-mutants \
-    test-seeds error-budget lint check format configs-update docs golden-update
+.PHONY: test test-all boards-ready test-quick test-known test-san test-configs \
+    test-mutants test-seeds error-budget lint check format configs-update docs \
+    golden-update

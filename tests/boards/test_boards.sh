@@ -3,12 +3,12 @@
 # SPDX-License-Identifier: MIT
 
 if [ "${1-}" = --help ]; then
-    echo 'usage: tests/boards/test_boards.sh [BOARD...]'
+    echo 'usage: tests/boards/test_boards.sh [BOARD|template...]'
     echo 'Example: tests/boards/test_boards.sh microbit sifive_e'
     exit 0
 fi
 if [ $# -eq 0 ]; then
-    cd hal/boards && set -- * && cd ../.. || exit 3
+    cd hal/boards && set -- template * && cd ../.. || exit 3
 fi
 
 make=${MAKE:-make}
@@ -37,7 +37,7 @@ check() {
 choose() {
     on=$1
     shift
-    $make --no-print-directory BOARD="$on" "$@"
+    "$make" --no-print-directory BOARD="$on" "$@"
 }
 
 # same BOARD [VARIABLE=value...]: render there and here, compare.
@@ -47,7 +47,9 @@ same() {
     choose "$@" run-board QUIET=1 && choose "$@" "$picture-sim.ppm" || return
     instructions=$(sed -n "s/^instructions: //p" "$log")
     paths=$(sed -n "s/^paths: //p" "$log")
-    note="$((instructions / paths)) instructions a path"
+    note="$instructions instructions"
+    [ "${paths:-0}" -eq 0 ] ||
+        note="$((instructions / paths)) instructions a path"
     cmp "$picture.ppm" "$picture-sim.ppm" && return
     cp "$picture.ppm" "$build/fail/$SCENE-${1}_actual.ppm"
     return 1
@@ -66,18 +68,18 @@ scene() {
 # panel BOARD [VARIABLE=value...]: the real board's firmware, and what it shows.
 panel() {
     grey=$build/$SCENE-$1-gray4.ppm
-    choose "$@" firmware &&
+    choose "$@" VARIANT=-panel firmware &&
         "$build/qlux-sim-draft" "$build/$SCENE.qlb" -o "$grey" --quiet \
             --format gray4 --size 128x64 --spp 8 &&
-        tests/boards/test_panel.sh "$build/$1/$SCENE.elf" "$grey"
+        tests/boards/test_panel.sh "$build/$1/$SCENE-panel.elf" "$grey"
 }
 
 # stops BOARD STATUS FAULT: how fault_main.c ends, and that it says so.
 stops() {
     fault=$build/$1/$SCENE-emulated-fault-$3
     choose "$1" EMULATED=1 VARIANT="-fault-$3" "$fault.elf" \
-        BOARD_MAIN=tests/boards/fault_main.c CFLAGS_BOARD=-DTEST_FAULT="$3" ||
-        return
+        BOARD_MAIN=tests/boards/fault_main.c FLAGS_MAIN=-DTEST_FAULT="$3" \
+        FIRMWARE_SRC='firmware/base/ql_crc.c firmware/app/ql_stream.c' || return
     # shellcheck disable=SC2046 # a command and its arguments
     tools/dev/run_board.sh --quiet "$fault.elf" "$build/$1/fault.ppm" \
         $(emulator "$1")
@@ -114,35 +116,56 @@ stack() {
     note="$used bytes used"
 }
 
+# objects BOARD WORD...: how many would be compiled for another firmware.
+objects() {
+    choose "$@" -n EMULATED=1 VARIANT=-never firmware | grep -c "^  CC	"
+}
+
+# Of the core and hal/ what is there is used; main() is the firmware's own.
+shares() {
+    n=$(objects "$1" SPP=3 SEED=3 SIZE=8x8 BOUNCES=3 DIRECT=none INTERLACE=2)
+    source=$(objects "$1" -W "hal/boards/$1/board.c")
+    header=$(objects "$1" -W hal/ql_hal.h)
+    gate=$(objects "$1" ROULETTE=1)
+    note="$n, source $source, header $header, gate $gate objects"
+    [ "$n" -eq 1 ] && [ "$source" -eq 2 ] && [ "$header" -gt 5 ] &&
+        [ "$gate" -gt 50 ]
+}
+
+# Of cores that nothing else uses nobody reads the debug information.
+bare=CFLAGS_BOARD=-g0
 SCENE=${SCENE:-cornell}
 default_scene=$SCENE
 export SCENE
-check template port_that_does_nothing_compiles "$make" test-template
+case " $* " in
+*' template '*)
+    check template port_that_does_nothing_compiles "$make" test-template ;;
+esac
 for board; do
+    [ "$board" != template ] || continue
     check "$board" draft_picture_is_the_simulators same "$board"
+    check "$board" other_settings_compile_main_alone shares "$board"
     check "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
     check "$board" interlaced_picture_is_the_same \
-        same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SAMPLER=random SEED=9
+        same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SEED=9
+    check "$board" random_numbers_nearest_entries_are_the_same same "$board" \
+        $bare SIZE=24x24 SAMPLER=random SEED=9 TABLE_BITS=5 TABLE_LERP=0
     check "$board" spheres_phong_mirror_and_glass_are_the_same \
-        scene glossy "$board" SIZE=20x20 SPP=1
+        scene glossy "$board" $bare SIZE=20x20 SPP=1
     check "$board" sky_map_by_mis_is_the_same \
-        scene sky "$board" SIZE=20x20 SPP=1 DIRECT=mis ROULETTE=1
-    check "$board" lens_is_the_same scene lens "$board" SIZE=20x20 SPP=1
+        scene sky "$board" $bare SIZE=20x20 SPP=1 DIRECT=mis ROULETTE=1
+    check "$board" lens_pixels_that_end_by_themselves_are_the_same \
+        scene lens "$board" $bare SIZE=16x16 SPP=64 ERROR=0.1
     check "$board" smooth_normals_are_the_same \
-        scene smooth "$board" SIZE=20x20 SPP=1 PRECISION=fine
-    check "$board" nearest_entries_of_short_tables_are_the_same \
-        same "$board" SIZE=24x24 TABLE_BITS=5 TABLE_LERP=0
-    check "$board" small_code_draws_the_same \
-        same "$board" SMALL=1 DIAG=1 SIZE=24x24
+        scene smooth "$board" $bare SIZE=20x20 SPP=1 PRECISION=fine
+    check "$board" small_code_draws_the_same same "$board" SMALL=1 SIZE=24x24
     check "$board" direct_light_alone_is_the_same scene square "$board" \
-        SMALL=1 DIAG=1 SIZE=24x24 INDIRECT=none BOUNCES=0
+        SMALL=1 SIZE=24x24 INDIRECT=none BOUNCES=0
     for direct in hemisphere cosine solid-angle mis; do
         check "$board" "strategy_${direct}_is_the_same" scene strategies \
-            "$board" SIZE=16x16 SPP=1 DIRECT=$direct LIGHTS=uniform \
+            "$board" $bare SIZE=16x16 SPP=1 DIRECT=$direct LIGHTS=uniform \
             INDIRECT=uniform LIGHT_SAMPLES=2
     done
-    check "$board" pixels_that_end_by_themselves_are_the_same \
-        same "$board" SIZE=16x16 SPP=64 ERROR=0.1
     check "$board" stack_stays_within_its_proved_bound stack "$board"
     check "$board" ctrl_c_stops_the_picture ctrl_c "$board"
     check "$board" panic_is_reported stops "$board" 100 0

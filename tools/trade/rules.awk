@@ -6,12 +6,13 @@
 #
 # Every measurement is a file in BUILD/trade, so make does what is missing and
 # what has changed, and goes on where it was stopped. -v quick=1 is for the
-# choices with a ! in front, in small pictures, on one core.
+# choices with a ! in front, in small pictures of two scenes, on one core.
 
 BEGIN {
     gates_read()
     dir = build "/trade" (quick ? "/quick" : "")
-    n_scenes = split("cornell lights dents", scenes, " ")
+    n_scenes = split(quick ? "cornell dents" : "cornell lights dents", scenes,
+        " ")
     size["cornell"] = quick ? "18x18" : "36x36"
     size["lights"] = size["dents"] = quick ? "20x15" : "40x30"
     n_cores = quick ? 1 : 3

@@ -21,7 +21,8 @@ the cheapest choice for an error of 10 %, 3 % and 1 %.
 What is measured is kept in build/trade: a run that was stopped goes on where it
 was, and a change measures again what depends on it.
 
-  --quick   some choices, small pictures, Cortex-M3 only: build/trade-quick.*
+  --quick   some choices, two scenes, small pictures, Cortex-M3 only:
+            build/trade-quick.*
 
 Example: make trade
 END
