@@ -4,24 +4,32 @@
 /* The core and tools/ref take the same random numbers for the same decisions,
  * so a picture has no noise of its own against the other: what differs is
  * rounding, and the few rays that pass an edge on another side because of it.
- * The limits are those the formats were chosen for. */
+ * What rounding does is tens of times below the limits, what chance does to the
+ * few rays is counted. */
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "support/picture/mini_scene.h"
+#include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "qlux.h"
 #include "ref/ref.h"
 
 enum { SIZE = 40, SPP = 64, VALUES = 3 * SIZE * SIZE };
 
+/* Pixels left out of the error are those that differ most: a single path past
+ * an edge may make one as wrong as can be. In fine about 5 hold one, in draft
+ * 170: what is left out is more than that by five standard deviations. */
 #if QL_POS_BITS == 0
-#define RELMSE_MAX 1e-4
-#define BIAS_MAX   1e-3
-#else
 #define RELMSE_MAX 1e-6
+#define BIAS_MAX   1e-3
+#define LEFT_OUT   260
+#else
+#define RELMSE_MAX 1e-8
 #define BIAS_MAX   1e-4
+#define LEFT_OUT   35
 #endif
 
 static mini_scene_t m;
@@ -216,33 +224,59 @@ static void render_reference(const ref_scene_t *scene)
     }
 }
 
+/* The bias, and what chance may make of it: a path that passes an edge on
+ * another side is as likely to be brighter for it, and alone in its pixel. */
 typedef struct {
-    double relmse, bias;
+    double relmse, bias, by_chance;
 } difference_t;
 
-/* As qlux-diff has it. */
+enum { COMPARISONS = 8 }; /* pictures that have to be near */
+
+static int by_size(const void *x, const void *y)
+{
+    const double p = *(const double *)x, q = *(const double *)y;
+
+    return (p > q) - (p < q);
+}
+
+/* As qlux-diff has it, of the pixels that are not left out. */
 static difference_t compare(void)
 {
-    double mean_core = 0, mean = 0;
-    difference_t d = {0, 0};
+    enum { PIXELS = SIZE * SIZE };
+    double mean_core = 0, mean = 0, squares = 0, error[PIXELS];
+    difference_t d = {0, 0, 0};
 
     for (unsigned i = 0; i < VALUES; i++) {
         mean_core += core[i] / VALUES;
         mean += reference[i] / VALUES;
     }
-    for (unsigned i = 0; i < VALUES; i++) {
-        const double apart = core[i] - reference[i];
+    for (unsigned i = 0; i < PIXELS; i++) {
+        double sum = 0;
 
-        d.relmse += apart * apart /
-                    (reference[i] * reference[i] + 0.01 * mean * mean) / VALUES;
+        error[i] = 0;
+        for (unsigned k = 3 * i; k < 3 * i + 3; k++) {
+            const double apart = core[k] - reference[k];
+
+            error[i] += apart * apart /
+                        (reference[k] * reference[k] + 0.01 * mean * mean) /
+                        VALUES;
+            sum += apart;
+        }
+        squares += sum * sum;
+    }
+    qsort(error, PIXELS, sizeof *error, by_size);
+    for (unsigned i = 0; i < PIXELS - LEFT_OUT; i++) {
+        d.relmse += error[i];
     }
     d.bias = mean_core / mean - 1;
+    d.by_chance =
+            stats_sign_limit(COMPARISONS) * sqrt(squares) / (mean * VALUES);
     return d;
 }
 
 static bool is_near(difference_t d)
 {
-    return d.relmse <= RELMSE_MAX && fabs(d.bias) <= BIAS_MAX;
+    return d.relmse <= RELMSE_MAX && fabs(d.bias) <= BIAS_MAX + d.by_chance;
 }
 
 static void check(void)
@@ -258,9 +292,9 @@ static void check(void)
     ref_scene_free(&scene);
     d = compare();
     CHECK(is_near(d), "relMSE %.3g, limit %.3g; bias %.3g, limit %.3g",
-            d.relmse, RELMSE_MAX, d.bias, BIAS_MAX);
+            d.relmse, RELMSE_MAX, d.bias, BIAS_MAX + d.by_chance);
     NOTE("relMSE %.2g, limit %.2g; bias %.2g, limit %.2g", d.relmse, RELMSE_MAX,
-            d.bias, BIAS_MAX);
+            d.bias, BIAS_MAX + d.by_chance);
 }
 
 TEST(diffuse_room_is_that_of_double)
@@ -275,9 +309,12 @@ TEST(spherical_triangles_and_smooth_faces_are_those_of_double)
     check();
 }
 
+/* Next to rays by the cosine each vertex has one by its lobes, for emitters
+ * alone, with numbers of its own. */
 TEST(phong_mirror_glass_and_a_round_lamp_are_those_of_double)
 {
     glossy_room();
+    settings.indirect = QL_INDIRECT_COSINE;
     check();
 }
 
@@ -389,7 +426,7 @@ TEST(samples_past_an_edge_are_few_and_add_no_light)
     share = (double)f.flips / (SIZE * SIZE * SPP);
     z = f.flips > 0 ? f.sum / sqrt(f.squares) : 0;
     CHECK(share < FLIPS_MAX, "%.3g of all samples", share);
-    CHECK(fabs(z) < 4, "%u samples, z %.2f", f.flips, z);
+    CHECK(fabs(z) < stats_sign_limit(1), "%u samples, z %.2f", f.flips, z);
     CHECK(fabs(f.rest / f.light) < BIAS_MAX, "the others: bias %.3g",
             f.rest / f.light);
     NOTE("%.2g of all, limit %.2g; z %.1f; the others: bias %.2g", share,
