@@ -14,8 +14,8 @@
  * ends. Each test is necessary for a hit, and none needs a division.
  *
  * Draft: o and d are the ray's own integers, so the line tests are exact.
- * Fine: o and d are rounded, by 1/2 at most. A ray that hits passes a point p of
- * the box inside the grid, so (p - o) x d = 0 in that plane, and with o and d
+ * Fine: o and d are rounded, by 1/2 at most. A ray that hits passes a point p
+ * of the box inside the grid, so (p - o) x d = 0 in that plane; with o and d
  * rounded it is (|p_x - o_x| + |p_z - o_z| + |d_x| + |d_z|) / 2 at most, d as
  * rounded: below 2^16, the margin below. For p the box has room of its own.
  *

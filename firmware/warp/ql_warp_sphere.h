@@ -26,7 +26,7 @@
  *   u1, u2  uq32   uniform
  *   return  s2.29  unit vector: z = 1 - 2 u1, azimuth 2 pi u2
  *
- * Error: length within 2.3e-5 (draft) or 5e-8 (fine) of 1. The direction has
+ * Error: length within 2.0e-5 (draft) or 7e-9 (fine) of 1. The direction has
  *        the errors of square root and sine, and u1 (1 - u1) is cut to 2^-32:
  *        next to the poles that moves a point by up to 1.5 2^-30 / rho towards
  *        them, 3.8e-5 at most (u1 = 1; tests/unit/test_warp_sphere.c).

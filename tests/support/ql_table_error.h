@@ -28,7 +28,7 @@
             2e-9)
 
 /* ql_rsqrt_m(), relative */
-#define RSQRT_ERROR (QL_CFG_PRECISION == 0 ? 0x1p-15 : 0x1p-28)
+#define RSQRT_ERROR (QL_CFG_PRECISION == 0 ? 2.3e-5 : 1.2e-9)
 
 /* ql_rsqrt_warp_m(), relative */
 #define WARP_ROOT_ERROR                                                        \

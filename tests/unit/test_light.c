@@ -136,6 +136,46 @@ TEST(uniform_choice_has_the_probability_it_divides_by)
     }
 }
 
+/* ceil(i 2^32 / n), where the equal share of light i of n begins. */
+static uint64_t share_begin(uint64_t i, uint64_t n)
+{
+    return (i * 4294967296u + n - 1) / n;
+}
+
+/* Of any number of lights: equal shares need nothing of a scene but that. */
+TEST(equal_shares_are_exact_of_every_light_of_very_many)
+{
+    static const uint16_t counts[] = {2, 3, 5, 7, 255, 256, 257, 1000, 4096,
+            21845, 32767, 32768, 32769, 65534, 65535};
+    unsigned long lights = 0;
+
+    for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+        const uint32_t n = counts[k];
+        ql_scene_t many = {0};
+
+        many.light_count = counts[k];
+        for (uint32_t i = 0; i < n; i++) {
+            const uint64_t begin = share_begin(i, n);
+            const uint64_t end = share_begin(i + 1, n);
+            const double pmf =
+                    value(ql_light_pmf(&many, QL_LIGHTS_UNIFORM, (uint16_t)i));
+
+            CHECK(pmf * 4294967296.0 == (double)(end - begin),
+                    "light %lu of %lu: %.1f of 2^32, want %lu",
+                    (unsigned long)i, (unsigned long)n, pmf * 4294967296.0,
+                    (unsigned long)(end - begin));
+            CHECK(ql_light_choose(&many, QL_LIGHTS_UNIFORM, (uint32_t)begin) ==
+                                    i &&
+                            ql_light_choose(&many, QL_LIGHTS_UNIFORM,
+                                    (uint32_t)(end - 1)) == i,
+                    "light %lu of %lu: another one was chosen",
+                    (unsigned long)i, (unsigned long)n);
+            lights++;
+        }
+    }
+    NOTE("%lu lights", lights);
+}
+
 TEST(samples_divide_the_weight_and_all_lights_weigh_1)
 {
     build_lamps(5);
@@ -196,6 +236,7 @@ int main(int argc, char **argv)
     RUN(weights_times_probabilities_count_every_emitter_once);
 #if QL_CFG_STRATEGIES
     RUN(uniform_choice_has_the_probability_it_divides_by);
+    RUN(equal_shares_are_exact_of_every_light_of_very_many);
     RUN(samples_divide_the_weight_and_all_lights_weigh_1);
     RUN(each_light_is_found_by_its_triangle_and_nothing_else_is);
 #endif

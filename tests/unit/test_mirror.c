@@ -5,10 +5,33 @@
 #include "support/seen_surface.h"
 
 #if QL_CFG_MIRROR
+/* How far a flat mirror's direction is off v - 2 (v.n) n of the very v and n it
+ * was made of, as a part of what rounding may change: v.n to nearest and then
+ * each component. */
+static double reflection_off(void)
+{
+    const int32_t v[3] = {bsdf.minus_wo.x, bsdf.minus_wo.y, bsdf.minus_wo.z};
+    const int32_t n[3] = {bsdf.n.x, bsdf.n.y, bsdf.n.z};
+    const int32_t r[3] = {bsdf.mirror.x, bsdf.mirror.y, bsdf.mirror.z};
+    long double height = 0;
+    double worst = 0;
+
+    for (int k = 0; k < 3; k++) {
+        height += (long double)v[k] * n[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const long double exact = v[k] - ldexpl(2 * height * n[k], -58);
+        const double may = 0.5 + 0.5 * ldexp(fabs((double)n[k]), -29);
+
+        worst = fmax(worst, (double)fabsl(r[k] - exact) / may);
+    }
+    return worst;
+}
+
 /* Twice the error of the normal, 2^-26, and rounding. */
 TEST(mirrors_reflect_at_equal_angles)
 {
-    double worst = 0;
+    double worst = 0, length = 0, bent = 0, ulps = 0;
 
     state = 7;
     set_albedo(0, 0, 0);
@@ -35,7 +58,18 @@ TEST(mirrors_reflect_at_equal_angles)
                 along(in, -2 * dot(in, normal()), normal()));
         worst = fmax(worst, off);
         CHECK(off <= ROUNDED + 0x1p-24, "%.3g rad off", off);
+        off = angle(from_vec(bsdf.mirror),
+                along(in, -2 * dot(in, normal()), normal()));
+        bent = fmax(bent, off);
+        off = sqrt(dot(from_vec(bsdf.mirror), from_vec(bsdf.mirror)) /
+                   dot(from_vec(bsdf.minus_wo), from_vec(bsdf.minus_wo)));
+        length = fmax(length, fabs(off - 1));
+        ulps = fmax(ulps, reflection_off());
     }
+    /* a normal of a packed length is short by 2^-26 of it at most */
+    CHECK(bent <= 0x1p-25 && length <= 0x1p-24, "%.3g rad, length %.3g", bent,
+            length);
+    CHECK(ulps <= 1 && ulps > 0.9, "%.3f of what rounding may change", ulps);
     NOTE("worst %.2f 2^-%d rad", ldexp(worst, QL_DIR_BITS), QL_DIR_BITS);
 }
 

@@ -93,7 +93,19 @@ TEST(black_is_black_and_white_white_at_every_threshold)
     }
 }
 
-TEST(thresholds_of_the_dither_differ_in_all_64_places)
+/* Bayer's matrix of n by n from that of half its size: 4 B, 4 B + 2 above,
+ * 4 B + 3, 4 B + 1 below. */
+static unsigned bayer(unsigned x, unsigned y, unsigned n)
+{
+    static const unsigned quarter[2][2] = {{0, 2}, {3, 1}};
+    const unsigned half = n / 2;
+
+    return n == 1 ? 0
+                  : 4 * bayer(x % half, y % half, half) +
+                            quarter[y / half][x / half];
+}
+
+TEST(thresholds_of_the_dither_are_bayers_in_all_64_places)
 {
     uint32_t first[64];
 
@@ -104,8 +116,13 @@ TEST(thresholds_of_the_dither_differ_in_all_64_places)
             first[t]++;
         }
         for (unsigned k = 0; k < t; k++) {
-            CHECK(first[k] != first[t], "places %u and %u share a threshold", k,
-                    t);
+            /* the higher the threshold, the less light is needed */
+            CHECK(first[k] != first[t] &&
+                            (first[k] < first[t]) ==
+                                    (bayer(k % 8, k / 8, 8) >
+                                            bayer(t % 8, t / 8, 8)),
+                    "places %u and %u: %lu, %lu", k, t, (unsigned long)first[k],
+                    (unsigned long)first[t]);
         }
     }
     for (unsigned y = 0; y < 8; y++) {
@@ -368,7 +385,7 @@ int main(int argc, char **argv)
     RUN(the_curve_is_within_its_bound_for_every_input);
     RUN(a_brighter_input_never_gives_a_darker_pixel);
     RUN(black_is_black_and_white_white_at_every_threshold);
-    RUN(thresholds_of_the_dither_differ_in_all_64_places);
+    RUN(thresholds_of_the_dither_are_bayers_in_all_64_places);
 #endif
 #if QL_CFG_FORMATS & 1
     RUN(rgb888_is_red_green_blue);
