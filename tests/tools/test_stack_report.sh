@@ -48,7 +48,7 @@ volatile unsigned long long n;
 void ql_cpu_reset(void) { n /= 7 + n; }
 E2
 check library_is_read_from_the_disassembly "$?"
-[ "$(cat "$dir/out")" -ge 40 ]
+[ "$(cat "$dir/out")" -ge 40 ] && [ "$(cat "$dir/out")" -le 160 ]
 check library_counts $?
 
 report <<'E2'

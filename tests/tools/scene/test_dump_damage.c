@@ -57,12 +57,20 @@ static uint8_t *blob_of(const char *bytes, size_t bytes_size, size_t *size)
     parse_dump(&model, &text);
     made = write_blob(&model, size);
     open_blob_bytes(&scene, made, *size, "dump");
+    model_free(&model);
+    free(copy);
     return made;
+}
+
+/* cli_fail() ends a child here, before what looks for leaks at an exit. */
+static void leave(void)
+{
+    _exit(CLI_INPUT);
 }
 
 /* What a child says of other bytes, and whether it makes the same blob. */
 typedef struct {
-    int code; /* 0: the same blob; 10: another one; else that of cli_fail() */
+    int code; /* 0: the same blob; 10: another one; CLI_INPUT: refused */
     char text[200];
 } verdict_t;
 
@@ -82,6 +90,7 @@ static verdict_t try(const char *bytes, size_t size)
         size_t made_size;
         uint8_t *made;
 
+        (void)atexit(leave);
         (void)dup2(ends[1], STDERR_FILENO);
         made = blob_of(bytes, size, &made_size);
         _exit(made_size == blob_size && memcmp(made, blob, blob_size) == 0
@@ -137,8 +146,8 @@ static verdict_t try_lines(size_t at, size_t n, unsigned times)
     return v;
 }
 
-/* Entries of a table may be added, if nothing contradicts; those of a header
- * and of a camera may not. The last light may go: the others stay right. */
+/* Who edits a dump may add an entry to a table, if nothing contradicts, and
+ * take the last light away; nothing else comes twice or is missing. */
 TEST(lines_are_needed_and_not_twice)
 {
     size_t at = (size_t)(strchr(dump, '\n') + 1 - dump), next;
@@ -146,21 +155,31 @@ TEST(lines_are_needed_and_not_twice)
     unsigned lines = 0;
 
     for (; at < dump_size; at = next, lines++) {
+        const int want = dump[at] == '#' ? 0 : CLI_INPUT;
         verdict_t v;
 
         next = (size_t)(strchr(dump + at, '\n') + 1 - dump);
-        if (next < dump_size) {
-            v = try_lines(at, next - at, 0);
-            CHECK(v.code == (dump[at] == '#' ? 0 : CLI_INPUT),
-                    "without line %u: exit %d: %s", lines + 2, v.code, v.text);
-        }
+        v = try_lines(at, next - at, 0);
+        CHECK(v.code == want || strcmp(dump + next, "end\n") == 0,
+                "without line %u: exit %d: %s", lines + 2, v.code, v.text);
         if (at < tables) {
             v = try_lines(at, next - at, 2);
-            CHECK(v.code == (dump[at] == '#' ? 0 : CLI_INPUT),
-                    "twice line %u: exit %d: %s", lines + 2, v.code, v.text);
+            CHECK(v.code == want, "twice line %u: exit %d: %s", lines + 2,
+                    v.code, v.text);
         }
     }
     NOTE("%u lines", lines);
+}
+
+/* All but the newline at the end. */
+TEST(a_dump_that_is_cut_is_refused)
+{
+    for (size_t n = 0; n < dump_size; n++) {
+        const verdict_t v = try(dump, n);
+
+        CHECK(v.code == (n == dump_size - 1 ? 0 : CLI_INPUT),
+                "%zu of %zu bytes: exit %d: %s", n, dump_size, v.code, v.text);
+    }
 }
 
 int main(int argc, char **argv)
@@ -171,5 +190,6 @@ int main(int argc, char **argv)
     TEST_BEGIN("tools/dump_damage", argc, argv);
     RUN(a_highest_bit_set_anywhere_changes_no_blob);
     RUN(lines_are_needed_and_not_twice);
+    RUN(a_dump_that_is_cut_is_refused);
     return TEST_END();
 }

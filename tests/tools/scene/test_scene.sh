@@ -353,6 +353,7 @@ table 17  3  1 1 2
 w 0x0003 0x5555 0x5555 0x0004 0x4000 0x8000 0xc000 0x0000
 w 0x0000 0x0000 0x0000 0x0004 0x0000 0x8000 0x8000 0x0002
 w 0x4000 0x0001 0x0000 0x0001 0x0000 0x0001 0x0000
+end
 END
 cmp -s in/two.txt in/wanted.txt
 say tables_in_1_2_and_3_dimensions_are_those_of_their_weights $?
@@ -625,13 +626,13 @@ expect a_dump_number_out_of_range_has_a_line 2 'in/d.txt:5: expected' \
 sed 's/^features .*/& lens/' in/c.txt >in/d.txt
 expect a_dump_with_a_feature_it_lacks_is_refused 2 'expected lens if and only' \
     "$scene" in/d.txt -o out.qlb
-(cat in/c.txt && echo 's 4096 4096 4096  256') >in/d.txt
+(sed '$d' in/c.txt && echo 's 4096 4096 4096  256' && echo end) >in/d.txt
 expect a_dump_without_the_feature_it_has_is_refused 2 \
     'expected spheres if and only' "$scene" in/d.txt -o out.qlb
-(cat in/c.txt && echo 'da 0 0 0') >in/d.txt
+(sed '$d' in/c.txt && echo 'da 0 0 0' && echo end) >in/d.txt
 expect a_quarter_of_a_lens_is_refused 2 "expected a 'pa' line" \
     "$scene" in/d.txt -o out.qlb
-(cat in/c.txt && echo 'da 0 0 0' && echo 'da 0 0 0') >in/d.txt
+(sed '$d' in/c.txt && echo 'da 0 0 0' && echo 'da 0 0 0' && echo end) >in/d.txt
 expect a_lens_line_twice_is_refused 2 "expected one 'da'" \
     "$scene" in/d.txt -o out.qlb
 sed '/^du /d' in/c.txt >in/d.txt
@@ -649,8 +650,22 @@ expect a_pair_of_one_8_bit_node_is_refused 2 \
 sed 's/^features node16/features node8/' in/c.txt >in/d.txt
 expect nodes_of_the_wrong_width_are_refused 2 'expected pairs16 if and only' \
     "$scene" in/d.txt -o out.qlb
-(cat in/c.txt && echo w) >in/d.txt
+(sed '$d' in/c.txt && echo w && echo end) >in/d.txt
 expect a_dump_line_without_numbers_is_refused 2 'expected a word' \
+    "$scene" in/d.txt -o out.qlb
+for version in 1 3 ''; do
+    sed "1s/2/$version/" in/c.txt >in/d.txt
+    expect "a_dump_of_version_'$version'_is_refused" 2 \
+        "in/d.txt:1: expected a dump of version 2, found '$version'" \
+        "$scene" in/d.txt -o out.qlb
+done
+sed '$d' in/c.txt >in/d.txt
+expect a_dump_without_its_end_is_refused 2 \
+    "in/d.txt:$(wc -l <in/d.txt | tr -d ' '): expected an 'end' line" \
+    "$scene" in/d.txt -o out.qlb
+(cat in/c.txt && echo && echo end) >in/d.txt
+expect nothing_follows_the_end_of_a_dump 2 "in/d.txt:$(wc -l <in/d.txt |
+    tr -d ' '): expected nothing after 'end', found 'end'" \
     "$scene" in/d.txt -o out.qlb
 expect a_dump_has_no_node_bits 1 '--node-bits' \
     "$scene" in/c.txt -o out.qlb --node-bits 8

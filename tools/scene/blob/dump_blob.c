@@ -100,7 +100,7 @@ void dump_blob(FILE *file, const model_t *model)
     model_table_t tables[BLOB_TABLE_COUNT];
 
     model_get_tables(model, tables);
-    fprintf(file, "%s\n", DUMP_FIRST_LINE);
+    fputs(DUMP_NAME " " DUMP_VERSION "\n", file);
     dump_structs(file, &blob_header, &model->header, 1);
     for (int i = 0; i < BLOB_TABLE_COUNT; i++) {
         const blob_table_t *table = blob_tables + order[i];
@@ -109,4 +109,5 @@ void dump_blob(FILE *file, const model_t *model)
             dump_table(file, table, tables + order[i]);
         }
     }
+    fputs(DUMP_END "\n", file);
 }

@@ -8,7 +8,11 @@
 
 #include "scene/blob/model.h"
 
-#define DUMP_FIRST_LINE "qlux-dump 1"
+/* The first line is its name and its version, the last one says that all of it
+ * is there. */
+#define DUMP_NAME    "qlux-dump"
+#define DUMP_VERSION "2"
+#define DUMP_END     "end"
 
 /* Write every number of a blob as text: parse_dump() reads it back. */
 void dump_blob(FILE *file, const model_t *model);

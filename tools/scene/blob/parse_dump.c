@@ -25,9 +25,9 @@ typedef struct {
 
 bool is_dump(const text_t *text)
 {
-    const size_t length = strlen(DUMP_FIRST_LINE);
+    const size_t length = strlen(DUMP_NAME);
 
-    return strncmp(text->next, DUMP_FIRST_LINE, length) == 0 &&
+    return strncmp(text->next, DUMP_NAME, length) == 0 &&
            strchr("\r\n \t", text->next[length]) != NULL;
 }
 
@@ -192,10 +192,15 @@ static void take_line(
     } while (part->table->per_line > 1 && *text->rest != '\0');
 }
 
-static void parse_line(parser_t *p, text_t *text)
+/* Take a line; true if it is the last. */
+static bool parse_line(parser_t *p, text_t *text)
 {
     const char *key = text_word(text);
 
+    if (strcmp(key, DUMP_END) == 0) {
+        text_finish(text);
+        return true;
+    }
     for (int i = 0; i <= HEADER; i++) {
         const blob_struct_t *s = &p->parts[i].table->entry;
         const unsigned count = count_lines(s);
@@ -204,11 +209,38 @@ static void parse_line(parser_t *p, text_t *text)
             if (strcmp(key, find_line(s, line)->key) == 0) {
                 take_line(p->parts + i, text, line, key);
                 text_finish(text);
-                return;
+                return false;
             }
         }
     }
     text_fail(text, "expected a key of a dump, found '%s'", key);
+}
+
+/* All lines, the first one of which names the version. */
+static void parse_lines(parser_t *p, text_t *text)
+{
+    const char *version;
+    bool ended = false;
+
+    (void)text_line(text);
+    (void)text_word(text);
+    version = text_word(text);
+    if (version == NULL || strcmp(version, DUMP_VERSION) != 0) {
+        text_fail(text,
+                "expected a dump of version " DUMP_VERSION ", found '%s'",
+                version != NULL ? version : "");
+    }
+    text_finish(text);
+    while (!ended && text_line(text)) {
+        ended = parse_line(p, text);
+    }
+    if (!ended) {
+        text_fail(text, "expected an '" DUMP_END "' line, for the rest is cut");
+    }
+    if (text_line(text)) {
+        text_fail(text, "expected nothing after '" DUMP_END "', found '%s'",
+                text_word(text));
+    }
 }
 
 /* A table is there if and only if these features need it, and it is whole. */
@@ -259,9 +291,6 @@ void parse_dump(model_t *model, text_t *text)
         parser.parts[i].table = blob_tables + i;
     }
     parser.parts[HEADER].table = &blob_header;
-    (void)text_line(text);
-    while (text_line(text)) {
-        parse_line(&parser, text);
-    }
+    parse_lines(&parser, text);
     finish(&parser, model, text);
 }
