@@ -372,8 +372,8 @@ TEST(sphere_resting_on_a_plane_hides_the_known_part_of_the_sky)
                     "a %g: lifted %.9f, known %.9f", a, want, known);
             got = measure(k, 1u << 16);
             z = off_by(k == HEMISPHERE || k == MIS ? AREA : COSINE, &got, want);
-            CHECK(fabs(z) < STATS_Z_MAX, "a %g, %s: %.7f, want %.7f, z %.1f", a,
-                    strategies[k].name, got.mean, want, z);
+            CHECK(fabs(z) < STATS_Z_MANY, "a %g, %s: %.7f, want %.7f, z %.1f",
+                    a, strategies[k].name, got.mean, want, z);
             /* and rejects a sphere lifted by a fifth of its radius */
             want = 1 - form_factor(sqrt(a * a + 1.2 * 1.2),
                                1.2 / sqrt(a * a + 1.2 * 1.2));

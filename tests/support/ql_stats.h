@@ -26,8 +26,9 @@
 /* For p-values of a suite of up to fifty comparisons. */
 #define STATS_P_MIN (STATS_ALARM / 50)
 
-/* stats_z_limit(1), rounded up. */
-#define STATS_Z_MAX 4.9
+/* stats_z_limit(1), and of any claim of up to 200 means; rounded up. */
+#define STATS_Z_MAX  4.9
+#define STATS_Z_MANY 5.9
 
 /* |z| of one of so many normal values exceeds this with STATS_ALARM. */
 double stats_z_limit(double comparisons);

@@ -17,6 +17,7 @@ TEST(normal_limits_are_quantiles_of_the_tables)
     check("1 comparison", stats_z_limit(1), 4.8916);
     check("1000 comparisons", stats_z_limit(1000), 6.1094);
     CHECK(stats_z_limit(1) < STATS_Z_MAX, "%.4f", stats_z_limit(1));
+    CHECK(stats_z_limit(200) < STATS_Z_MANY, "%.4f", stats_z_limit(200));
 }
 
 /* 1 and 2 degrees of freedom have closed forms. */
