@@ -55,6 +55,39 @@ TEST(reciprocal_of_a_mantissa_is_within_4_ulp)
     NOTE("worst %.2f ulp", recip_worst);
 }
 
+/* What ql_recip_m() is, in 64-bit numbers: 2^24 / (2 i + 257) half up, then two
+ * steps of Newton's method, each product cut. */
+static uint32_t recip_by_steps(uint32_t m)
+{
+    const uint64_t by = 2 * ((m >> 24) - 128) + 257;
+    const uint64_t entry = (((uint64_t)1 << 25) / by + 1) / 2;
+    uint64_t r = entry << 16;
+
+    r = (r * (4294967296u - (m * r >> 32)) >> 32) << 1;
+    r = r * (4294967296u - (m * r >> 32)) >> 32;
+    return r < 0x80000000u ? (uint32_t)(r << 1) : 0xffffffffu;
+}
+
+static void check_steps(uint32_t m)
+{
+    CHECK(ql_recip_m(m) == recip_by_steps(m),
+            "ql_recip_m(%08lx) = %08lx, by its steps %08lx", (unsigned long)m,
+            (unsigned long)ql_recip_m(m), (unsigned long)recip_by_steps(m));
+}
+
+/* So it is the same number of long code and of short. */
+TEST(reciprocals_are_two_steps_from_the_nearest_entry)
+{
+    unsigned long count = 0;
+
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += 16 * STRIDE) {
+        check_steps((uint32_t)m);
+        count++;
+    }
+    around_boundaries(check_steps, 0x80000000u);
+    NOTE("%lu and the ends of cells", count);
+}
+
 static double rsqrt_worst;
 
 static void check_rsqrt(uint32_t m)
@@ -285,6 +318,37 @@ TEST(square_root_of_a_real_is_within_its_bound)
     NOTE("worst %.2Le, bound %.2Le", root_worst, REAL_ROOT_ERROR);
 }
 
+/* The high word of the product, a bit further up if its top bit is not set: so
+ * it is the same number of long code and of short. The same of the mantissa of
+ * a whole number, and of the reciprocal's exponent. */
+TEST(products_and_whole_numbers_have_every_bit_of_their_formula)
+{
+    uint64_t state = 9;
+
+    for (long i = 0; i < MANY(200000); i++) {
+        const ql_real_t a = random_real(&state, 90);
+        const ql_real_t b = random_real(&state, 90);
+        const uint64_t n = stats_random(&state) >> (i & 63);
+        const uint32_t high = (uint32_t)((uint64_t)a.m * b.m >> 32);
+        const int short_by = high < 0x80000000u;
+        const ql_real_t r = ql_real_mul(a, b), inverse = ql_real_recip(a);
+        const ql_real_t whole = ql_real_from_u64(n);
+        int zeros = 0;
+
+        while (n != 0 && n << zeros >> 63 == 0) {
+            zeros++;
+        }
+        CHECK(r.m == high << short_by && r.e == a.e + b.e + 32 - short_by,
+                "%08lx 2^%d * %08lx 2^%d", (unsigned long)a.m, a.e,
+                (unsigned long)b.m, b.e);
+        CHECK(inverse.m == recip_by_steps(a.m) && inverse.e == -63 - a.e,
+                "1 / %08lx 2^%d", (unsigned long)a.m, a.e);
+        CHECK(whole.m == (uint32_t)(n << zeros >> 32) &&
+                        (n == 0 || whole.e == 32 - zeros),
+                "of %016llx", (unsigned long long)n);
+    }
+}
+
 TEST(products_and_quotients_as_calls_are_the_same)
 {
     const ql_real_t zero = {0, 0};
@@ -383,6 +447,7 @@ int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_real", argc, argv);
     RUN(reciprocal_of_a_mantissa_is_within_4_ulp);
+    RUN(reciprocals_are_two_steps_from_the_nearest_entry);
     RUN(reciprocal_root_of_a_mantissa_is_within_its_bound);
     RUN(square_root_is_within_its_bound);
     RUN(square_root_of_zero_is_zero);
@@ -390,6 +455,7 @@ int main(int argc, char **argv)
     RUN(products_of_reals_are_cut_below_two_ulp);
     RUN(reciprocal_of_a_real_is_normal_and_of_zero_is_zero);
     RUN(square_root_of_a_real_is_within_its_bound);
+    RUN(products_and_whole_numbers_have_every_bit_of_their_formula);
     RUN(products_and_quotients_as_calls_are_the_same);
     RUN(sums_of_reals_are_within_2_to_the_minus_30);
     RUN(differences_of_reals_are_within_an_ulp_of_the_first);
