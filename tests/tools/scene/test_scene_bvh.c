@@ -190,6 +190,141 @@ static uint32_t check_tree(const grid_t *grid, unsigned leaf_max)
     return w.depth;
 }
 
+/* ---- the surface area heuristic, by every split there is ---- */
+
+static const grid_t *sah_grid;
+static unsigned long sah_nodes;
+
+static int by_centre(const void *a, const void *b, uint32_t axis)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    const int apart =
+            centre_of(sah_grid, x, axis) - centre_of(sah_grid, y, axis);
+
+    return apart != 0 ? apart : x < y ? -1 : 1;
+}
+
+static int by_x(const void *a, const void *b)
+{
+    return by_centre(a, b, 0);
+}
+
+static int by_y(const void *a, const void *b)
+{
+    return by_centre(a, b, 1);
+}
+
+static int by_z(const void *a, const void *b)
+{
+    return by_centre(a, b, 2);
+}
+
+/* Half the surface of the box of n faces, in cells: a flat one has one. */
+static uint64_t area_of(const uint32_t *faces, uint32_t n)
+{
+    uint64_t size[3];
+
+    for (int k = 0; k < 3; k++) {
+        int low = INT16_MAX, high = 0;
+
+        for (uint32_t i = 0; i < 3 * n; i++) {
+            const uint32_t v = sah_grid->faces[faces[i / 3]].vertex[i % 3];
+            const int p = sah_grid->vertices[v][k];
+
+            low = p < low ? p : low;
+            high = p > high ? p : high;
+        }
+        size[k] = (uint64_t)(high - low) + 1;
+    }
+    return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
+}
+
+static uint64_t cost_of(const uint32_t *faces, uint32_t lower, uint32_t n)
+{
+    return cost.triangle *
+           (area_of(faces, lower) * lower +
+                   area_of(faces + lower, n - lower) * (n - lower));
+}
+
+/* The least cost of any split of n faces, less that of the pair. */
+static uint64_t least_cost(const uint32_t *faces, uint32_t n)
+{
+    static int (*const order[3])(const void *, const void *) = {
+            by_x, by_y, by_z};
+    uint32_t sorted[64];
+    uint64_t least = UINT64_MAX;
+
+    memcpy(sorted, faces, n * sizeof *sorted);
+    for (int k = 0; k < 3; k++) {
+        qsort(sorted, n, sizeof *sorted, order[k]);
+        for (uint32_t i = 1; i < n; i++) {
+            const uint64_t this = cost_of(sorted, i, n);
+
+            least = this < least ? this : least;
+        }
+    }
+    return least;
+}
+
+/* Faces below a node; they follow each other. */
+static uint32_t count_below(const bvh_t *bvh, const bvh_node_t *node)
+{
+    return node->meta >= BVH_LEAF
+                   ? node->meta - BVH_LEAF
+                   : count_below(bvh, bvh->pairs[node->link]) +
+                             count_below(bvh, bvh->pairs[node->link] + 1);
+}
+
+static void check_cost(const bvh_t *bvh, const bvh_node_t *node, uint32_t first,
+        unsigned leaf_max)
+{
+    const uint32_t n = count_below(bvh, node);
+    const uint32_t *const faces = bvh->order + first;
+    const uint64_t area = area_of(faces, n);
+    const uint64_t least = n > 1 ? least_cost(faces, n) : UINT64_MAX;
+    const bool leaf =
+            n == 1 || (n <= leaf_max && cost.triangle * area * n <=
+                                                least + cost.pair * area);
+
+    sah_nodes++;
+    CHECK(leaf == (node->meta >= BVH_LEAF), "%u faces: %s", n,
+            leaf ? "not a leaf" : "a leaf");
+    if (node->meta < BVH_LEAF) {
+        const bvh_node_t *const pair = bvh->pairs[node->link];
+        const uint32_t lower = count_below(bvh, pair);
+
+        CHECK(cost_of(faces, lower, n) == least,
+                "%u and %u faces cost %llu, the least is %llu", lower,
+                n - lower, (unsigned long long)cost_of(faces, lower, n),
+                (unsigned long long)least);
+        check_cost(bvh, pair, first, leaf_max);
+        check_cost(bvh, pair + 1, first + lower, leaf_max);
+    }
+}
+
+TEST(every_split_is_the_cheapest_of_all_and_leaves_are_cheaper)
+{
+    sah_nodes = 0;
+    for (uint32_t i = 0; i < 300; i++) {
+        const unsigned leaf_max = 1 + i % 13;
+        grid_t grid;
+        bvh_t bvh;
+
+        grid_open(&grid, 1 + i % 24);
+        if (i % 5 == 4) {
+            fill_chain(&grid);
+        } else {
+            fill_random(&grid, 1u << (5 + i % 10));
+        }
+        sah_grid = &grid;
+        bvh_build(&bvh, &grid, leaf_max, &cost, true);
+        check_cost(&bvh, &bvh.root, 0, leaf_max);
+        bvh_free(&bvh);
+        grid_free(&grid);
+    }
+    NOTE("%lu nodes", sah_nodes);
+}
+
 TEST(every_triangle_is_in_one_leaf_and_boxes_contain)
 {
     static const uint32_t counts[] = {0, 1, 2, 3, 13, 14, 100, 3000};
@@ -375,6 +510,7 @@ TEST(encoded_boxes_contain_random_ones)
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/scene_bvh", argc, argv);
+    RUN(every_split_is_the_cheapest_of_all_and_leaves_are_cheaper);
     RUN(every_triangle_is_in_one_leaf_and_boxes_contain);
     RUN(thousand_identical_triangles_terminate);
     RUN(collinear_centroids_terminate);
