@@ -313,8 +313,10 @@ TEST(every_split_is_the_cheapest_of_all_and_leaves_are_cheaper)
         grid_open(&grid, 1 + i % 24);
         if (i % 5 == 4) {
             fill_chain(&grid);
+        } else if (i % 5 == 3) {
+            fill_row(&grid, i % 3); /* flat */
         } else {
-            fill_random(&grid, 1u << (5 + i % 10));
+            fill_random(&grid, 1u << i % 15);
         }
         sah_grid = &grid;
         bvh_build(&bvh, &grid, leaf_max, &cost, true);
