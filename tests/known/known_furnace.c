@@ -95,8 +95,8 @@ static void measure(
     }
 }
 
-/* How many standard errors the means are off, and how large a part for certain:
- * a path next to an edge may put one picture off by more than all the others. */
+/* How many standard errors the means are off, and how large a part for sure: a
+ * path next to an edge may put one picture off by more than all the others. */
 static void compare(
         const stats_moments_t means[KS], double albedo, double *z, double *part)
 {
