@@ -142,7 +142,15 @@ done
 say a_stopped_render_keeps_the_old_file $?
 "$sim" scene.qlb -o keep.ppm $small && head -c 2 keep.ppm | grep -q P6
 say a_finished_render_replaces_it $?
-rm keep.ppm
+echo old >kept.ppm
+chmod 640 kept.ppm
+ln -s kept.ppm keep.png.ppm
+"$sim" scene.qlb -o keep.png.ppm $small && [ -L keep.png.ppm ] &&
+    cmp -s kept.ppm keep.ppm
+say a_link_goes_on_leading_to_what_is_written $?
+[ "$(ls -l kept.ppm | cut -c 1-10)" = -rw-r----- ]
+say what_is_written_again_keeps_its_permissions $?
+rm keep.ppm kept.ppm keep.png.ppm
 nothing_left a_stopped_render_leaves_nothing
 "$sim" scene.qlb -o - $small >out.txt 2>err.txt
 [ $? -eq 1 ]
@@ -239,7 +247,8 @@ expect merge_refuses_a_sample_counted_twice 2 'counted before' \
 "$sim" scene.qlb --save-sums other.qls $small --rows 4:6 --samples 7:8
 expect merge_refuses_an_overlap 2 'counted before' \
     "$merge" part1.qls other.qls -o no.ppm
-expect merge_warns_of_missing_rows 0 '9 of 14 rows are missing' \
+expect merge_warns_of_missing_rows 0 \
+    '9 of 14 rows are missing, the first is row 5$' \
     "$merge" part1.qls -o some.ppm
 expect merge_warns_of_uneven_samples 0 'from 1 to 5 samples' \
     "$merge" part1.qls part5.qls part8.qls -o some.ppm
@@ -315,6 +324,10 @@ say a_bad_setting_is_named $?
 awk '/^paths: /{p = $2} /^samples-per-pixel: /{s = $2}
     END {exit !(s >= 32 && s < 256 && p > 0 && p <= s * 280 + 1)}' stats.txt
 say stats_tell_the_mean_number_of_samples $?
+"$sim" scene.qlb -o n.ppm --size 20x14 --spp 64 --error 0.00001 --quiet \
+    --rows 5:6 --stats >stats.txt
+grep -q '^samples-per-pixel: 64.000$' stats.txt
+say stats_are_of_the_rows_that_were_rendered $?
 for f in rgb888 rgb565le rgb565be gray8 gray4; do
     "$sim" scene.qlb -o $f.ppm --format $f $small || failures=$((failures + 1))
 done

@@ -164,6 +164,7 @@ expect a_power_is_tested_as_given 0 'm = 3.25 .* ok$' \
 grep -q 'counted copies against the core: the same bits' out.txt &&
     grep -q 'cos^3.25' out.txt
 say its_cost_is_compared_with_a_table $?
+expect a_table_fits_its_density 0 'table-3d .* ok$' "$warp" test table-3d
 expect the_alias_table_is_exact 0 '16/16  ok$' "$warp" test alias
 grep -q 'counted search against the core: the same entries' out.txt &&
     [ "$(awk '$1 ~ /^(4|16|64|256|1024|4096)$/ && NF == 8' out.txt |

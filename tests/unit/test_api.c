@@ -597,6 +597,24 @@ TEST(roulette_looks_at_the_largest_channel)
 }
 #endif
 
+#if QL_CFG_DIAG
+/* A path that ends on a black surface is not one too faint to go on. */
+TEST(black_surfaces_are_not_counted_as_faint)
+{
+    ql_settings_t s = small();
+    ql_render_t render;
+    ql_sum_t sum = {{0, 0, 0}};
+
+    mini_begin(&mini);
+    put_ahead(-4000, mini_material(&mini, 0, 0));
+    mini_open(&mini, &scene);
+    render = begin(&s);
+    ql_render_pixel(&render, 0, 0, 0, 64, &sum);
+    CHECK(render.diag.paths == 64 && render.diag.faint == 0, "%lu of %lu",
+            (unsigned long)render.diag.faint, (unsigned long)render.diag.paths);
+}
+#endif
+
 #if SHADOW_RAYS
 /* No picture tells: the surface itself hides such a light, but at its edges. */
 TEST(a_light_behind_a_surface_costs_no_shadow_ray)
@@ -639,6 +657,9 @@ int main(int argc, char **argv)
     RUN(the_synopsis_of_qlux_h_renders_a_picture);
 #endif
     RUN(any_order_of_lines_gives_the_same_bits);
+#if QL_CFG_DIAG
+    RUN(black_surfaces_are_not_counted_as_faint);
+#endif
 #if QL_CFG_NODE8 && QL_CFG_NODE16
     RUN(both_node_widths_give_the_same_bits);
 #endif

@@ -81,6 +81,7 @@ typedef struct {
     uint32_t ends;
     int32_t status; /* of the last end frame */
     uint32_t paths;
+    uint32_t ticks;
     bool intact; /* nothing but good frames */
 } picture_t;
 
@@ -112,6 +113,7 @@ static void take_frame(picture_t *p, const uint8_t *frame, size_t size)
         p->ends++;
         p->status = ql_i32(le(payload, 4));
         p->paths = le(payload + 4, 4);
+        p->ticks = le(payload + 20, 4);
     } else {
         p->intact = false;
     }
@@ -191,6 +193,8 @@ static void test_stream(void)
 
     receive(&p);
     check(ok && complete(&p), "the_stream_holds_the_core's_picture");
+    /* the simulator's clock goes on by one with every question */
+    check(p.ticks == HEIGHT, "the_time_is_that_of_every_line");
     check(sim_hal_result()->display_writes == 0,
             "a_board_without_panel_is_not_written_to");
     for (unsigned i = 0; i < sizeof interlaces; i++) {
@@ -295,6 +299,8 @@ static void test_refusals(void)
     r.work_short = 0;
     r.interlace = 3;
     check(run_app(&r) == QL_ERR_SETTINGS, "an_interlace_of_3_is_refused");
+    r.interlace = 0;
+    check(run_app(&r) == QL_ERR_SETTINGS, "an_interlace_of_0_is_refused");
     r.interlace = 1;
     bytes[test.blob_size - 1] ^= 1;
     ok = run_app(&r) == QL_ERR_CHECKSUM;
@@ -378,6 +384,51 @@ static void test_faults(sim_fault_t fault, const char *claim)
     check(ok && calls > (1 + QL_CFG_PANEL) * HEIGHT, claim);
 }
 
+/* A port that stays broken, too, so that the end cannot be sent. */
+static void test_first_error(void)
+{
+    const run_t r = {WIDTH, HEIGHT + 2, PANEL_FORMAT, 2, 0, 0};
+    uint32_t calls;
+    bool ok;
+
+    sim_fault_arm(0, SIM_FAULT_ONCE);
+    ok = run_app(&r) == QL_OK;
+    calls = sim_fault_calls();
+    for (uint32_t at = 1; at <= calls; at++) {
+        ql_status_t first;
+
+        sim_fault_arm(at, SIM_FAULT_ONCE);
+        first = run_app(&r);
+        sim_fault_arm(at, SIM_FAULT_STAYS);
+        ok = ok && run_app(&r) == first;
+    }
+    sim_fault_arm(0, SIM_FAULT_ONCE);
+    check(ok, "the_first_error_is_the_one_reported");
+}
+
+/* The simulator's port takes more than it has room for at first. */
+static void test_port(void)
+{
+    const sim_hal_setup_t setup = {
+            test.blob, test.blob_size, {0, 0, QL_FORMAT_RGB888}, 0};
+    const sim_hal_result_t *got = sim_hal_result();
+    uint8_t bytes[97];
+    bool ok = true;
+
+    sim_hal_begin(&setup);
+    ok = ql_hal_init() == QL_OK;
+    for (unsigned i = 0; i < 200; i++) {
+        memset(bytes, (int)i, sizeof bytes);
+        ok = ok && ql_hal_serial_write(bytes, sizeof bytes) == QL_OK;
+    }
+    ok = ok && got->serial_size == 200 * sizeof bytes;
+    for (unsigned i = 0; i < 200 && ok; i++) {
+        memset(bytes, (int)i, sizeof bytes);
+        ok = memcmp(got->serial + i * sizeof bytes, bytes, sizeof bytes) == 0;
+    }
+    check(ok, "the_port_keeps_every_byte");
+}
+
 /* A build that cannot encode the stream says so in its last frame. */
 static void test_no_stream(void)
 {
@@ -403,6 +454,8 @@ int main(void)
         test_missing();
         test_faults(SIM_FAULT_ONCE, "every_glitch_of_the_hal_is_reported");
         test_faults(SIM_FAULT_STAYS, "every_breakdown_of_the_hal_is_survived");
+        test_first_error();
+        test_port();
     } else {
         test_no_stream();
     }

@@ -130,6 +130,8 @@ TEST(uniform_choice_has_the_probability_it_divides_by)
             CHECK(fabs(weight * two_pi * mass - 1) < 4e-9,
                     "light %u of %u weighs %.10f, its mass is %.10f", i, lamps,
                     weight, mass);
+            CHECK(value(ql_light_pmf(&scene, QL_LIGHTS_UNIFORM, i)) == mass,
+                    "light %u of %u: %.10f is not exact", i, lamps, mass);
             begin = end;
         }
         CHECK(begin == 4294967296u, "%u lights leave out numbers", lamps);

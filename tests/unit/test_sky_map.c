@@ -453,6 +453,30 @@ TEST(the_ends_of_the_square_are_drawn_too)
 
 /* The mean of L / pdf is the integral of L. The second number is stratified,
  * which only makes the mean better than its variance says. */
+/* Of a single texel, where v is the number drawn: 2 pi^2 sin(pi v). */
+TEST(densities_keep_their_bits_at_either_pole)
+{
+    double worst = 0;
+
+    map.texels[0].rgb9e5 = QL_LE32(511);
+    open_map(1, 1, 0);
+    for (unsigned k = 2; k < 64; k++) {
+        const uint32_t from_pole = UINT32_MAX >> k / 2;
+        const uint32_t u = k % 2 ? ~from_pole : from_pole;
+        const double v = ldexp(from_pole + 0.5, -32);
+        const double want = 2 * pi * pi * sin(pi * v);
+        ql_uq32_t emission[3];
+        ql_vec3_t w;
+        const double got = real(ql_sky_map_sample(
+                &map.scene, 0x80000000u, u, &w, emission));
+
+        worst = fmax(worst, fabs(got / want - 1));
+        CHECK(fabs(got / want - 1) <= INVERSE_ERROR, "%08lx: %.9g, not %.9g",
+                (unsigned long)u, got, want);
+    }
+    NOTE("worst %.2g", worst);
+}
+
 TEST(radiance_over_density_adds_up_to_the_integral)
 {
     double worst = 0;
@@ -623,6 +647,7 @@ int main(int argc, char **argv)
     RUN(the_texel_drawn_is_the_texel_looked_up);
     RUN(directions_drawn_have_unit_length);
     RUN(the_ends_of_the_square_are_drawn_too);
+    RUN(densities_keep_their_bits_at_either_pole);
     RUN(radiance_over_density_adds_up_to_the_integral);
     RUN_IF(TABLES_EXACT, directions_fall_in_texels_as_their_masses_say);
     RUN(a_density_without_the_sine_is_rejected);

@@ -8,8 +8,10 @@
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "support/ql_wide.h"
+#include "light/ql_emit_sphere.h"
 #include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
+#include "trace/ql_smooth.h"
 #include "trace/ql_sphere.h"
 #include "trace/ql_surface_at.h"
 
@@ -665,6 +667,64 @@ TEST(segments_are_blocked_exactly_where_they_cross)
     NOTE("%d segments, %lu blocked, %lu lost at the rim", RAYS, blocked, lost);
 }
 
+/* Where a direction towards a sphere ends: on it, at the side that is seen from
+ * outside, ahead from inside. */
+TEST(segments_towards_a_sphere_end_on_the_side_that_is_seen)
+{
+    double worst = 0;
+
+    state = 12;
+    one.scene.two_sided = true;
+    for (long i = 0; i < 20000; i++) {
+        ql_surface_t surface;
+        ql_emit_sample_t sample;
+        ql_uniform2_t u;
+        double to[3], way = 0, facing = 0, square = 0;
+
+        random_sphere();
+        ql_smooth_none(&surface);
+        surface.p = random_position();
+        surface.n = vec(random_in(-9999, 9999), random_in(-9999, 9999),
+                random_in(-9999, 9999));
+        surface.inv_n = ql_vec_unit_pack_inv_n(
+                (uint64_t)ql_vec_dot(surface.n, surface.n));
+        u.u1 = (uint32_t)stats_random(&state);
+        u.u2 = (uint32_t)stats_random(&state);
+        if (surface.inv_n == 0 ||
+                !ql_emit_sphere_sample(&one.scene, QL_DIRECT_SOLID_ANGLE,
+                        &one.sphere, &surface, u, &sample)) {
+            continue;
+        }
+        to[0] = sample.to.x;
+        to[1] = sample.to.y;
+        to[2] = sample.to.z;
+        for (int k = 0; k < 3; k++) {
+            const double c = (double)one.c[k] / UNIT;
+            const double p = k == 0   ? surface.p.x
+                             : k == 1 ? surface.p.y
+                                      : surface.p.z;
+
+            square += (to[k] - c) * (to[k] - c);
+            facing += (to[k] - c) * (to[k] - p);
+            way += (to[k] - p) * (to[k] - p);
+        }
+        /* a unit of rounding on each axis, and what a grazing ray loses */
+        if (ql_sphere_side(&one.sphere,
+                    ql_sphere_offset(&one.sphere, surface.p)) > 0) {
+            CHECK(facing <= 4 * sqrt(way) + 2e-4 * way, "far side: %g of %g",
+                    facing, way);
+        } else {
+            CHECK(facing >= -4 * sqrt(way), "near side from inside: %g",
+                    facing);
+        }
+        square = sqrt(square) - (double)one.r / UNIT;
+        worst = fmax(worst, fabs(square) / (4 + 1e-4 * sqrt(way)));
+    }
+    one.scene.two_sided = false;
+    CHECK(worst < 1, "%.3g of what is allowed off the sphere", worst);
+    NOTE("worst %.3g", worst);
+}
+
 /* A shadow segment to a point of a sphere that faces its origin: not blocked by
  * the sphere itself, whatever the rounding. */
 TEST(segments_between_points_stepped_off_the_sphere_are_free)
@@ -853,6 +913,7 @@ int main(int argc, char **argv)
     RUN(no_ray_meets_the_sphere_it_left);
     RUN(every_ray_from_inside_meets_the_sphere_once);
     RUN(segments_are_blocked_exactly_where_they_cross);
+    RUN(segments_towards_a_sphere_end_on_the_side_that_is_seen);
     RUN(segments_between_points_stepped_off_the_sphere_are_free);
     RUN(spheres_and_triangles_in_a_tree_equal_brute_force);
 #else

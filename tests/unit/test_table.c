@@ -560,6 +560,14 @@ TEST(no_weight_is_too_small_for_a_share)
                     shares[2] == 21845,
             "ties: %lu %lu", (unsigned long)shares[0],
             (unsigned long)shares[1]);
+    /* 65536 / 7 = 9362.3, 18724.6, 37449.1: the one left is the second's */
+    weights[1] = 2;
+    weights[2] = 4;
+    CHECK(table_shares(shares, weights, 3, 16) == TABLE_OK &&
+                    shares[0] == 9362 && shares[1] == 18725 &&
+                    shares[2] == 37449,
+            "remainders: %lu %lu", (unsigned long)shares[0],
+            (unsigned long)shares[1]);
 }
 
 TEST(extreme_weights_keep_their_sums_finite)

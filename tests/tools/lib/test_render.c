@@ -173,6 +173,29 @@ static void compare_steps(const ql_scene_t *scene)
     }
 }
 
+/* Means of 25 bits, half way between two floats: to the even one. */
+static void compare_ties(void)
+{
+    const sums_range_t one = {0, 1, 0, 1};
+    sums_range_t clash;
+    image_t image;
+    sums_t sums;
+
+    memset(&sums, 0, sizeof sums);
+    sums.field[SUMS_WIDTH] = sums.field[SUMS_HEIGHT] = 1;
+    sums_new(&sums);
+    (void)sums_claim(&sums, &one, &clash);
+    sums.pixels[0].rgb[0] = (1u << 24) + 1;
+    sums.pixels[0].rgb[1] = (1u << 24) + 3;
+    sums.pixels[0].rgb[2] = (1ull << 32) + (1u << 8) + 1;
+    develop(&image, &sums, IMAGE_PFM, QL_FORMAT_RGB888);
+    check(image.floats[0] == 1 && image.floats[1] == 1 + 0x1p-22f &&
+                    image.floats[2] == 256 + 0x1p-15f,
+            "means_are_rounded_to_the_nearest_float", "ties_to_even");
+    image_free(&image);
+    sums_free(&sums);
+}
+
 int main(void)
 {
     ql_scene_t scene;
@@ -186,6 +209,7 @@ int main(void)
     }
     compare(&scene, 5, 0);
     compare_steps(&scene);
+    compare_ties();
 #if QL_CFG_ADAPTIVE
     compare(&scene, 200, 0x4000);
 #endif

@@ -63,6 +63,16 @@ TEST(shares_sum_to_one_and_none_is_zero)
     NOTE("30 distributions");
 }
 
+TEST(no_weight_is_too_small_to_be_chosen)
+{
+    const u128_t weights[2] = {{0, 1}, {(uint64_t)1 << 40, 0}};
+    uint64_t shares[2];
+
+    cdf_shares(shares, weights, 2);
+    CHECK(shares[0] == 1 && shares[1] == 0xffffffffu, "%lu and %lu",
+            (unsigned long)shares[0], (unsigned long)shares[1]);
+}
+
 TEST(equal_weights_share_to_within_one)
 {
     u128_t weights[7];
@@ -548,6 +558,7 @@ int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/scene_model", argc, argv);
     RUN(shares_sum_to_one_and_none_is_zero);
+    RUN(no_weight_is_too_small_to_be_chosen);
     RUN(equal_weights_share_to_within_one);
     RUN(weights_are_one_over_two_pi_p);
     RUN(inv_n_is_rounded_to_nearest);
