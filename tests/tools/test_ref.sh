@@ -54,6 +54,26 @@ say a_display_shows_what_the_core_shows $? "$(grep max out.txt) of 255"
 grep -q '^paths: 840$' out.txt
 say rows_and_samples_are_counted $?
 
+# Two rays a vertex, and a lamp in a ball of glass, where radiance is larger.
+agrees() { # CLAIM SCENE.qlb OPTION...
+    claim=$1
+    shift
+    "$ref" "$@" -o double.pfm $small && "$build/qlux-sim" "$@" -o core.pfm \
+        $small && "$build/qlux-diff" core.pfm double.pfm --max-relmse 1e-4 \
+        --max-bias 1e-3 >out.txt
+    say "$claim" $? "$(grep -E '^(relmse|bias)' out.txt | tr '\n' ' ')"
+}
+agrees two_rays_of_a_vertex_are_those_of_double cornell.qlb --bounces 1 \
+    --direct hemisphere --indirect cosine
+printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nmtllib ball.mtl\nusemtl lamp\n' >ball.obj
+echo 'f 1 2 3' >>ball.obj
+printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >ball.mtl
+printf 'newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\nTf 1 1 1\n' >>ball.mtl
+printf 'mesh ball.obj\nsphere 0 0 0 radius 4 material glass\n' >ball.scene
+echo 'camera eye 0 0 9 look 0 0 0 fov 40' >>ball.scene
+"$build/qlux-scene" ball.scene -o ball.qlb --quiet
+agrees a_lamp_in_glass_is_that_of_double ball.qlb --bounces 2
+
 # The same random numbers: what differs is arithmetic, by the limits that the
 # formats were chosen for. One bounce only: through glass and back from walls a
 # lamp is met by few paths, and one of them that passes it on the other side is

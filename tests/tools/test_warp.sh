@@ -152,7 +152,7 @@ expect a_full_disk_is_code_3 3 'No space' \
 say nothing_is_left_behind $?
 
 # Tests
-expect uniform_hemisphere_passes 0 'uniform-hemisphere .* ok$' \
+expect uniform_hemisphere_passes 0 'uniform-hemisphere .* 511 .* ok$' \
     "$warp" test uniform-hemisphere
 expect naive_hemisphere_fails_as_it_should 0 'as uniform .*NOT UNIFORM' \
     "$warp" test naive-hemisphere

@@ -467,8 +467,8 @@ TEST(densities_keep_their_bits_at_either_pole)
         const double want = 2 * pi * pi * sin(pi * v);
         ql_uq32_t emission[3];
         ql_vec3_t w;
-        const double got = real(ql_sky_map_sample(
-                &map.scene, 0x80000000u, u, &w, emission));
+        const double got = real(
+                ql_sky_map_sample(&map.scene, 0x80000000u, u, &w, emission));
 
         worst = fmax(worst, fabs(got / want - 1));
         CHECK(fabs(got / want - 1) <= INVERSE_ERROR, "%08lx: %.9g, not %.9g",

@@ -667,6 +667,26 @@ TEST(segments_are_blocked_exactly_where_they_cross)
     NOTE("%d segments, %lu blocked, %lu lost at the rim", RAYS, blocked, lost);
 }
 
+/* Its six points on the axes lie exactly on it. */
+TEST(chords_between_points_of_a_sphere_are_free)
+{
+    const int32_t centre = 10000 * ONE, r = 700 * ONE;
+    ql_vec3_t end[6];
+
+    set_sphere(10000 * 256, 10000 * 256, 10000 * 256, 700 * 256);
+    for (int i = 0; i < 6; i++) {
+        const int32_t by = i % 2 ? -r : r;
+
+        end[i] = vec(centre + (i / 2 == 0 ? by : 0),
+                centre + (i / 2 == 1 ? by : 0), centre + (i / 2 == 2 ? by : 0));
+    }
+    for (int i = 0; i < 36; i++) {
+        const ql_ray_t chord = {end[i / 6], ql_vec_sub(end[i % 6], end[i / 6])};
+
+        CHECK(!ql_sphere_blocks(&one.sphere, &chord), "%d to %d", i / 6, i % 6);
+    }
+}
+
 /* Where a direction towards a sphere ends: on it, at the side that is seen from
  * outside, ahead from inside. */
 TEST(segments_towards_a_sphere_end_on_the_side_that_is_seen)
@@ -913,6 +933,7 @@ int main(int argc, char **argv)
     RUN(no_ray_meets_the_sphere_it_left);
     RUN(every_ray_from_inside_meets_the_sphere_once);
     RUN(segments_are_blocked_exactly_where_they_cross);
+    RUN(chords_between_points_of_a_sphere_are_free);
     RUN(segments_towards_a_sphere_end_on_the_side_that_is_seen);
     RUN(segments_between_points_stepped_off_the_sphere_are_free);
     RUN(spheres_and_triangles_in_a_tree_equal_brute_force);
