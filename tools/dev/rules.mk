@@ -47,7 +47,8 @@ objects = $(call flags,$(subst /,-,$1),$(CC) $(HOST) $2)$(eval \
 # $(call headers_of,FAMILY): what earlier compilations found out.
 headers_of = $(wildcard $O/$1/*/*.d $O/$1/*/*/*.d $O/$1/*/*/*/*.d)
 
-archive = $(call step,AR,$@)rm -f $@ && $(AR) rcs $@ $(filter %.o,$^)
+archive = $(call step,AR,$@)mkdir -p $(@D) && rm -f $@ && \
+    $(AR) rcs $@ $(filter %.o,$^)
 link = $(call step,LD,$@)mkdir -p $(@D) && $(CC) $(CFLAGS) $(LDFLAGS) \
     $(filter %.o,$^) $(filter %.a,$^) -o $@ $(LDLIBS) -lpthread -lm
 
