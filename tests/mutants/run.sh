@@ -146,8 +146,8 @@ sources_of()
         return
         ;;
     esac
-    printf '%s\n' "${1-$killers}" | sed 's|^|tests/|; s| .*||; s|$|.c|' |
-        sort -u
+    printf '%s\n' "${1-$killers}" |
+        sed 's| .*||; /\.sh$/d; s|^|tests/|; s|$|.c|' | sort -u
     grep -rlF " $file" --include='*.d' "$built/$build/firmware" \
         "$built/test/$build/tests/support" "$built/host/tools/scene" |
         sed "s|^$built/||; s|^test/||; s|^[a-z]*/||; s|d\$|c|" |
@@ -316,9 +316,15 @@ one()
 "*) make_mutant || return ;;
     *) make_mutant "${killers%% *}" || return ;;
     esac
+    first=${killers%%"
+"*}
     while read -r test claim; do
         if ! lives "$test" $claim; then
-            say_as "mutants/$name" "killed_by_$test" ok "$why"
+            by=$why
+            [ "$test $claim" = "$first" ] ||
+                [ -z "$(base_one "$build $test $claim" | tee /dev/stderr)" ] ||
+                continue
+            say_as "mutants/$name" "killed_by_$test" ok "$by"
             rm -rf "${dir:?}"
             return
         fi
@@ -393,14 +399,17 @@ base_one()
     done
 }
 
-# "CONFIGURATION TEST CLAIM" of all mutants wanted; of a script all its claims.
+# "CONFIGURATION TEST CLAIM", the first to be tried, of all mutants wanted; of a
+# script all its claims.
 all_killers() # NAME...
 {
     for name in "$@"; do
         awk '
             $1 == "build" { build = $2 }
-            $1 == "killer" { print (build ? build : "fine"), $2, $3 }' \
-            "$work/of/$name"
+            $1 == "killer" {
+                print (build ? build : "fine"), $2, $3
+                exit
+            }' "$work/of/$name"
     done | sort -u | awk '
         $2 !~ /\.sh$/ { print; next }
         { claims[$1 " " $2] = claims[$1 " " $2] " " $3 }

@@ -65,6 +65,10 @@ agrees() { # CLAIM SCENE.qlb OPTION...
 }
 agrees two_rays_of_a_vertex_are_those_of_double cornell.qlb --bounces 1 \
     --direct hemisphere --indirect cosine
+agrees mis_and_roulette_are_those_of_double cornell.qlb --direct mis \
+    --bounces 3 --roulette
+agrees a_round_lamp_by_mis_is_that_of_double glossy.qlb --direct mis --bounces 0
+agrees a_round_lamp_by_its_area_is_that_of_double glossy.qlb --bounces 0
 printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nmtllib ball.mtl\nusemtl lamp\n' >ball.obj
 echo 'f 1 2 3' >>ball.obj
 printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >ball.mtl

@@ -97,6 +97,30 @@ echo '    v = ql_warp_unheard_of(u1, u2);' >call.c
 [ "$(unlisted call.c)" = 'ql_warp_unheard_of(' ]
 say a_warp_that_is_not_listed_would_be_noticed $?
 
+# Tests
+expect uniform_hemisphere_passes 0 'uniform-hemisphere .* 511 .* ok$' \
+    "$warp" test uniform-hemisphere
+expect naive_hemisphere_fails_as_it_should 0 'as uniform .*NOT UNIFORM' \
+    "$warp" test naive-hemisphere
+grep -q 'as uniform .* <1e-300 ' out.txt &&
+    grep -q 'naive-hemisphere   *[0-9].* ok$' out.txt
+say and_fits_its_own_density $?
+expect a_power_is_tested_as_given 0 'm = 3.25 .* ok$' \
+    "$warp" test cosine-power -m 3.25
+grep -q 'counted copies against the core: the same bits' out.txt &&
+    grep -q 'cos^3.25' out.txt
+say its_cost_is_compared_with_a_table $?
+expect a_table_fits_its_density 0 'table-3d .* ok$' "$warp" test table-3d
+expect the_alias_table_is_exact 0 '16/16  ok$' "$warp" test alias
+grep -q 'counted search against the core: the same entries' out.txt &&
+    [ "$(awk '$1 ~ /^(4|16|64|256|1024|4096)$/ && NF == 8' out.txt |
+        wc -l)" -eq 6 ]
+say search_is_compared_with_alias_for_six_sizes $?
+awk '$1 ~ /^(16|64|256|1024|4096)$/ && NF == 8 {
+        if ($8 <= last || $4 <= steps) bad = 1; last = $8; steps = $4; n++ }
+    END { exit bad || n != 5 }' out.txt
+say alias_pays_off_later_for_larger_tables $?
+
 # Plots: few samples, for they are tested, not looked at
 bad=
 for name in $names; do
@@ -150,29 +174,5 @@ expect a_full_disk_is_code_3 3 'No space' \
     "$warp" plot tent --samples 64 -o full.svg
 [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
 say nothing_is_left_behind $?
-
-# Tests
-expect uniform_hemisphere_passes 0 'uniform-hemisphere .* 511 .* ok$' \
-    "$warp" test uniform-hemisphere
-expect naive_hemisphere_fails_as_it_should 0 'as uniform .*NOT UNIFORM' \
-    "$warp" test naive-hemisphere
-grep -q 'as uniform .* <1e-300 ' out.txt &&
-    grep -q 'naive-hemisphere   *[0-9].* ok$' out.txt
-say and_fits_its_own_density $?
-expect a_power_is_tested_as_given 0 'm = 3.25 .* ok$' \
-    "$warp" test cosine-power -m 3.25
-grep -q 'counted copies against the core: the same bits' out.txt &&
-    grep -q 'cos^3.25' out.txt
-say its_cost_is_compared_with_a_table $?
-expect a_table_fits_its_density 0 'table-3d .* ok$' "$warp" test table-3d
-expect the_alias_table_is_exact 0 '16/16  ok$' "$warp" test alias
-grep -q 'counted search against the core: the same entries' out.txt &&
-    [ "$(awk '$1 ~ /^(4|16|64|256|1024|4096)$/ && NF == 8' out.txt |
-        wc -l)" -eq 6 ]
-say search_is_compared_with_alias_for_six_sizes $?
-awk '$1 ~ /^(16|64|256|1024|4096)$/ && NF == 8 {
-        if ($8 <= last || $4 <= steps) bad = 1; last = $8; steps = $4; n++ }
-    END { exit bad || n != 5 }' out.txt
-say alias_pays_off_later_for_larger_tables $?
 
 exit $((failures != 0))
