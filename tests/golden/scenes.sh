@@ -85,7 +85,7 @@ END
 # A sky of four by two texels: red differs, green is 2, blue is 4.
 {
     printf 'PF\n4 2\n-1\n'
-    for texel in 200 100 140 160 220 140 100 340; do
+    for texel in 160 140 100 200 340 100 140 220; do
         printf "\\000\\000\\$texel\\100\\000\\000\\000\\100\\000\\000\\200\\100"
     done
 } > "$dir/corner.pfm"

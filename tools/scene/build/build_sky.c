@@ -100,14 +100,19 @@ static void build_map(model_t *model, const world_t *world)
 
     model->texels = cli_alloc(n, sizeof *model->texels);
     model->texels_count = n;
+    /* A file is what one sees from inside, where the azimuth of a blob, from
+     * +z to +x, runs to the left. */
     for (uint32_t y = 0; y < sky->height; y++) {
         const int64_t sine = find_sine(y, sky->height);
+        const size_t row = (size_t)y * sky->width;
 
-        for (uint32_t i = y * sky->width; i < (y + 1) * sky->width; i++) {
-            model->texels[i] = round_texel(
-                    sky->map + 3 * (size_t)i, model->header.radiance_exp);
-            weights[i] = weigh_texel(model->texels[i], sine);
-            black = black && weights[i] == 0;
+        for (uint32_t x = 0; x < sky->width; x++) {
+            const float *rgb = sky->map + 3 * (row + sky->width - 1 - x);
+
+            model->texels[row + x] =
+                    round_texel(rgb, model->header.radiance_exp);
+            weights[row + x] = weigh_texel(model->texels[row + x], sine);
+            black = black && weights[row + x] == 0;
         }
     }
     if (black) {
