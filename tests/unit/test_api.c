@@ -429,7 +429,7 @@ TEST(strategies_of_none_leave_only_what_is_seen)
     (MANY_SAMPLES && QL_CFG_MIRROR && QL_CFG_SKY && QL_CFG_INDIRECT)
 #define SHADOW_RAYS (QL_CFG_DIAG && QL_CFG_LIGHTS)
 
-#if LENS_AND_PIXEL || MANY_SAMPLES || SHADOW_RAYS
+#if LENS_AND_PIXEL || MANY_SAMPLES || SHADOW_RAYS || QL_CFG_DIAG
 /* A square across the line of sight, 8000 ahead, from x to 4000 to the right of
  * the middle; it faces the eye. */
 static void put_ahead(int32_t x, uint16_t material)
