@@ -71,6 +71,28 @@ warns() { # CLAIM TIMES TEXT: how often the last command said it
     say "$1" $?
 }
 
+# ---- materials by their names ----
+# same_blob CLAIM: the scene in in/ gives the blob in/one.qlb
+same_blob() {
+    "$scene" in/a.scene -o in/two.qlb --quiet 2>err.txt &&
+        cmp -s in/one.qlb in/two.qlb
+    say "$1" $?
+}
+reset_input
+"$scene" in/a.scene -o in/one.qlb --quiet
+printf 'newmtl brighter\nKd 0.1 0 0\nKe 1000 1000 1000\n' >>in/a.mtl
+same_blob a_material_without_surfaces_changes_nothing
+reset_input
+printf 'newmtl w\nKd 0.1 0.2 0.3\nKe 9 9 9\n' >in/b.mtl
+cat in/a.mtl >>in/b.mtl
+mv in/b.mtl in/a.mtl
+same_blob the_last_definition_of_a_name_counts
+reset_input
+sed -i 's/newmtl w/newmtl w#2/' in/a.mtl
+sed -i 's/usemtl w/usemtl w#2/' in/a.obj
+printf 'newmtl w\nKd 0.1 0.2 0.3\n' >>in/a.mtl
+same_blob a_name_may_have_a_hash_in_it
+
 # ---- usage ----
 reset_input
 expect no_arguments_are_refused 1 'missing FILE' "$scene"
@@ -501,28 +523,6 @@ for m in d g e h; do printf 'usemtl %s\nf 1 2 3\n' $m; done >>in/a.obj
     sed -n 's/^m 0x\([0-9a-f]*\).*/\1/p' | tr '\n' ' ')" = \
     '1999999a 33333333 0ccccccd 26666666 ' ]
 say materials_with_gloss_come_first $?
-
-# ---- materials by their names ----
-# same_blob CLAIM: the scene in in/ gives the blob in/one.qlb
-same_blob() {
-    "$scene" in/a.scene -o in/two.qlb --quiet 2>err.txt &&
-        cmp -s in/one.qlb in/two.qlb
-    say "$1" $?
-}
-reset_input
-"$scene" in/a.scene -o in/one.qlb --quiet
-printf 'newmtl brighter\nKd 0.1 0 0\nKe 1000 1000 1000\n' >>in/a.mtl
-same_blob a_material_without_surfaces_changes_nothing
-reset_input
-printf 'newmtl w\nKd 0.1 0.2 0.3\nKe 9 9 9\n' >in/b.mtl
-cat in/a.mtl >>in/b.mtl
-mv in/b.mtl in/a.mtl
-same_blob the_last_definition_of_a_name_counts
-reset_input
-sed -i 's/newmtl w/newmtl w#2/' in/a.mtl
-sed -i 's/usemtl w/usemtl w#2/' in/a.obj
-printf 'newmtl w\nKd 0.1 0.2 0.3\n' >>in/a.mtl
-same_blob a_name_may_have_a_hash_in_it
 
 # ---- normals ----
 flat='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\n'
