@@ -272,7 +272,7 @@ void compile_model(model_t *model, const world_t *world, const grid_t *grid,
     fill_header(model, world, grid);
 }
 
-/* Say on one line what the grid cost, if it cost anything. */
+/* Say what the grid cost and what was there twice, a line each. */
 static void report_losses(const grid_t *grid)
 {
     if (grid->flat_count + grid->tiny_count > 0) {
@@ -281,6 +281,12 @@ static void report_losses(const grid_t *grid)
                 "written, %zu on the grid)\n",
                 grid->flat_count + grid->tiny_count, grid->flat_count,
                 grid->tiny_count);
+    }
+    if (grid->double_count > 0) {
+        fprintf(stderr,
+                "qlux-scene: dropped %zu faces that repeat another's corners, "
+                "in its order\n",
+                grid->double_count);
     }
 }
 

@@ -185,6 +185,23 @@ static bool has_area(const grid_t *grid, const grid_face_t *face)
     return n[0] != 0 || n[1] != 0 || n[2] != 0;
 }
 
+/* Is a face with these corners, in this order, there already? Which corner is
+ * the first makes no difference. */
+static bool is_double(
+        triples_t *known, const grid_t *grid, const grid_face_t *face)
+{
+    triples_key_t key = {0, {0, 0, 0}};
+    int first = 0;
+
+    for (int i = 1; i < 3; i++) {
+        first = face->vertex[i] < face->vertex[first] ? i : first;
+    }
+    for (int i = 0; i < 3; i++) {
+        key.triple[i] = face->vertex[(first + i) % 3];
+    }
+    return triples_add(known, &key, grid->face_count) != grid->face_count;
+}
+
 /* Does it leave the part of the grid that holds the scene? */
 static bool pokes_out(const ql_blob_sphere_t *sphere)
 {
@@ -230,10 +247,11 @@ static void round_sphere(grid_t *grid, const world_t *world, uint32_t index)
 static void round_faces(grid_t *grid, const world_t *world)
 {
     uint32_t *rounded = cli_alloc(world->vertex_count, sizeof *rounded);
-    triples_t places;
+    triples_t places, known;
 
     memset(rounded, 0xff, world->vertex_count * sizeof *rounded);
     triples_open(&places, world->vertex_count);
+    triples_open(&known, world->face_count);
     for (size_t f = 0; f < world->face_count; f++) {
         const world_face_t *from = world->faces + f;
         grid_face_t face;
@@ -253,12 +271,15 @@ static void round_faces(grid_t *grid, const world_t *world)
             }
             face.vertex[i] = rounded[v];
         }
-        if (has_area(grid, &face)) {
-            append_face(grid, &face);
-        } else {
+        if (!has_area(grid, &face)) {
             grid->tiny_count++;
+        } else if (is_double(&known, grid, &face)) {
+            grid->double_count++;
+        } else {
+            append_face(grid, &face);
         }
     }
+    triples_close(&known);
     triples_close(&places);
     free(rounded);
 }

@@ -33,8 +33,9 @@ typedef struct {
     uint16_t low[3], high[3]; /* box of the faces; low > high if none */
     size_t flat_count;        /* faces dropped: no area as written */
     size_t tiny_count;        /* faces, spheres dropped: none on the grid */
-    size_t merged_count;      /* vertices merged with another */
-    soft_t origin[3];         /* world = origin + (grid - GRID_LOW) unit */
+    size_t double_count; /* faces dropped: another has corners and winding */
+    size_t merged_count; /* vertices merged with another */
+    soft_t origin[3];    /* world = origin + (grid - GRID_LOW) unit */
     soft_t unit;
 } grid_t;
 
@@ -44,6 +45,8 @@ typedef struct {
  *   world  -  the scene
  *
  * Nothing is smooth yet: smooth_corners() sees to that.
+ * Of faces with the same corners in the same order the first one stays, so that
+ * a lamp that is in the file twice shines once.
  *
  * Error: half a unit a coordinate, half of 1/256 a coordinate of a sphere.
  * Fails: exit 2 if more than 65,535 faces remain.

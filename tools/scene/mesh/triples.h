@@ -10,7 +10,7 @@
 /* A triple and what it belongs to; equal if both are. */
 typedef struct {
     uint32_t owner;
-    uint16_t triple[3];
+    uint32_t triple[3];
 } triples_key_t;
 
 /* Open addressing, at most half full. */
