@@ -160,13 +160,13 @@ typedef struct {
 typedef enum {
     QL_GLOSS_PHONG = 1, /* Kd, and Ks about the mirror direction */
     QL_GLOSS_MIRROR,    /* Kd, and Ks exactly there */
-    QL_GLOSS_GLASS      /* refracts Tf, reflects by Fresnel; Kd is 0 */
+    QL_GLOSS_GLASS      /* refracts sqrt Tf, reflects by Fresnel; Kd is 0 */
 } ql_gloss_kind_t;
 
 /* What material i of the first count ones is beyond diffuse. Those after them
  * are diffuse only. Kd + Ks <= 1 in each channel. */
 typedef struct {
-    uint32_t specular[3]; /* Ks, of glass Tf; u1.31, 0..2^31 */
+    uint32_t specular[3]; /* Ks, of glass sqrt Tf; u1.31, 0..2^31 */
     uint32_t parameter;   /* Phong: Ns, u16.16; glass: Ni, u16.16, in
                                    2^12..2^22 (1/16..64); mirror: 0 */
     uint32_t chance;      /* u1.31: of the specular lobe when one is drawn by

@@ -79,7 +79,7 @@ Ks 0.9 0.8 0.7
 illum 3
 newmtl glass
 Ni 1.5
-Tf 0.9 0.9 1
+Tf 0.81 0.81 1
 illum 7
 END
 # A sky of four by two texels: red differs, green is 2, blue is 4.

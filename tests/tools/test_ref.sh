@@ -54,6 +54,22 @@ say a_display_shows_what_the_core_shows $? "$(grep max out.txt) of 255"
 grep -q '^paths: 840$' out.txt
 say rows_and_samples_are_counted $?
 
+# A slab that bends nothing, before a sky of 1: Tf is taken once, not twice.
+printf '%s\n' 'newmtl g' 'illum 7' 'Ni 1' 'Tf 0.5 0.25 1' >slab.mtl
+printf '%s\n' 'mtllib slab.mtl' 'usemtl g' 'v -9 -9 0' 'v 9 -9 0' 'v 9 9 0' \
+    'v -9 9 0' 'v -9 -9 1' 'v 9 -9 1' 'v 9 9 1' 'v -9 9 1' 'f 4 3 2 1' \
+    'f 5 6 7 8' 'f 1 2 6 5' 'f 2 3 7 6' 'f 3 4 8 7' 'f 4 1 5 8' >slab.obj
+printf '%s\n' 'mesh slab.obj' 'sky 1 1 1' \
+    'camera eye 0 0 9 look 0 0 0 fov 20' >slab.scene
+"$build/qlux-scene" slab.scene -o slab.qlb --quiet || exit 3
+for program in qlux-sim qlux-sim-draft qlux-ref; do
+    "$build/$program" slab.qlb -o slab.pfm --size 1x1 --spp 16 --quiet
+    tail -c 12 slab.pfm | od -A n -t f4 | awk '
+        function near(x, want) { return x > want - 1e-6 && x < want + 1e-6 }
+        END { exit !(near($1, 0.5) && near($2, 0.25) && near($3, 1)) }'
+    say "light_through_a_body_is_filtered_once_by_$program" $?
+done
+
 # Two rays a vertex, and a lamp in a ball of glass, where radiance is larger.
 agrees() { # CLAIM SCENE.qlb OPTION...
     claim=$1

@@ -480,14 +480,15 @@ gloss illum_3_is_a_mirror 'Kd 0.5\nKs 0.5\nNs 1\nillum 3\n' \
 gloss illum_5_is_a_mirror 'Kd 0\nKs 0.5\nillum 5\n' \
     "$none g $half  00000000 80000000  2"
 gloss illum_3_without_ks_is_diffuse 'Kd 0.5\nillum 3\n' "$plain"
-gloss illum_7_is_glass 'illum 7\nNi 1.5\nTf 0.5 0.5 0.5\nKd 1 1 1\nKs 1 1 1\n' \
+gloss illum_7_is_glass \
+    'illum 7\nNi 1.5\nTf 0.25 0.25 0.25\nKd 1 1 1\nKs 1 1 1\n' \
     "$none g $half  00018000 80000000  3"
 [ ! -s err.txt ]
 say what_glass_ignores_is_silent $?
 gloss glass_begins_with_ni_1_and_tf_1 'illum 7\n' \
     "$none g 80000000 80000000 80000000  00010000 80000000  3"
 gloss tf_is_clamped 'illum 7\nTf 2 0.5 -1\n' \
-    "$none g 80000000 40000000 00000000  00010000 80000000  3"
+    "$none g 80000000 5a82799a 00000000  00010000 80000000  3"
 warns tf_above_1_is_reported 1 "in/a.mtl:3: Tf of 'w' clamped to 0..1"
 gloss illum_1_leaves_ks_out 'Kd 0.5\nKs 0.5\nNs 1\nillum 1\n' "$plain"
 warns illum_1_says_so 1 "Ks of 'w' is not used, for its illum is 1"

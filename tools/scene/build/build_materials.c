@@ -22,11 +22,14 @@ static uint32_t round_fraction(soft_t x)
     return (uint32_t)soft_round(x, 31);
 }
 
+/* Light that goes through a body crosses its surface twice, and Tf is what is
+ * left then: each crossing takes the root. */
 static void round_glass(
         ql_blob_gloss_t *gloss, const world_material_t *material)
 {
     for (int k = 0; k < 3; k++) {
-        gloss->specular[k] = round_fraction(soft_from(material->filter[k]));
+        gloss->specular[k] =
+                round_fraction(soft_sqrt(soft_from(material->filter[k])));
     }
     /* 1/16..64 is 2^12..2^22 */
     gloss->parameter = (uint32_t)soft_round(soft_from(material->ni), 16);
