@@ -250,7 +250,7 @@ printf 'sky none.pfm\n' >in/a.scene
 expect a_missing_sky_is_exit_3_with_line 3 "$a:1: cannot read the sky" \
     "$scene" $a -o out.qlb
 cat "$scenes/sky.pfm" >in/s.pfm # writable, whatever the tree is
-bad_scene words_after_the_map_are_refused $a:1 "expected sky FILE.pfm [rotate" \
+bad_scene words_after_the_map_are_refused $a:1 "expected sky FILE [rotate" \
     'sky s.pfm turn 3\n'
 bad_scene rotate_needs_degrees $a:1 'expected degrees' 'sky s.pfm rotate\n'
 bad_scene rotate_of_any_size_is_refused $a:1 'expected 1e+06 degrees' \

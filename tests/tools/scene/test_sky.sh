@@ -43,4 +43,81 @@ sees behind_is_the_middle_of_the_map 0 0 -1 4 5
 sees rotate_turns_the_left_edge_from_z_to_x 90 1 0 8 1
 sees what_was_ahead_is_to_the_left_then 90 0 1 2 3
 sees a_turn_against_it_is_the_other_way -45 0 1 7 8
+
+# ---- formats ----
+
+# blob NAME BYTES [WORDS]: of a scene with this map; what is said is in out.txt
+blob()
+{
+    # shellcheck disable=SC2059 # the bytes are written as a format
+    printf "$2" >"$1.map"
+    printf '%s\n' 'mesh a.obj' "sky $1.map ${3-}" \
+        'camera eye 0 0 0  look 0 0 1  fov 40' >a.scene
+    "$build/qlux-scene" a.scene -o "$1.qlb" --quiet >out.txt 2>&1
+}
+
+# same CLAIM PFM OTHER [WORDS]: two maps, the other by WORDS, give one blob
+same()
+{
+    blob pfm "$2" && blob other "$3" "${4-}" && [ ! -s out.txt ] &&
+        cmp -s pfm.qlb other.qlb
+    say "$1" $?
+}
+
+# bad CLAIM TEXT BYTES: a map that is refused, and why
+bad()
+{
+    blob bad "$3"
+    [ $? -eq 2 ] && grep -qF "bad.map: $2" out.txt
+    say "$1" $?
+}
+one='\0\0\200\077' zero='\0\0\0\0' two='\0\0\0\100'
+ones=$one$one$one$one$one$one$one$one
+hdr='#?RADIANCE\n# by hand\nFORMAT=32-bit_rle_rgbe\n'
+b1='\200\200\200\201' b2='\200\200\200\202' b0='\0\0\0\0'
+same pixels_of_a_radiance_picture_are_read "Pf\n2 1\n-1\n$one$zero" \
+    "$hdr\n-Y 1 +X 2\n$b1$b0"
+same its_exposures_are_divided_out "Pf\n2 1\n-1\n$one$zero" \
+    "${hdr}EXPOSURE=4\nEXPOSURE=0.5\n\n-Y 1 +X 2\n$b2$b0"
+same its_rows_may_go_upwards "Pf\n1 2\n-1\n$zero$one" \
+    "#?RGBE\n\n+Y 2 +X 1\n$b0$b1"
+same its_pixels_may_go_to_the_left "Pf\n2 1\n-1\n$zero$one" \
+    "$hdr\n-Y 1 -X 2\n$b1$b0"
+row='\002\002\0\010'
+green='\010\200\200\200\200\200\200\200\200'
+same runs_of_each_channel_are_read "Pf\n8 2\n-1\n$ones$ones" \
+    "$hdr\n-Y 2 +X 8\n$row\210\200$green\204\200\204\200\210\201\
+$row\210\200$green\203\200\205\200\001\201\207\201"
+same pixels_are_repeated_as_of_old "Pf\n8 1\n-1\n$ones" \
+    "$hdr\n-Y 1 +X 8\n$b1\001\001\001\003$b1\001\001\001\003"
+same a_map_written_downwards_is_flipped "Pf\n1 3\n-1\n$zero$one$two" \
+    "Pf\n1 3\n-1\n$two$one$zero" flip
+same words_come_in_any_order "Pf\n1 2\n-1\n$zero$one" \
+    "Pf\n1 2\n-1\n$one$zero" 'rotate 0 flip'
+
+bad another_format_is_refused 'byte 11: expected FORMAT=32-bit_rle_rgbe' \
+    "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n$b1"
+bad a_header_without_end_is_refused 'byte 44: expected an empty line' "$hdr"
+bad a_turned_picture_is_refused 'byte 45: expected -Y HEIGHT +X WIDTH' \
+    "$hdr\n+X 1 -Y 1\n$b1"
+bad an_exposure_of_0_is_refused 'byte 44: expected an EXPOSURE above 0' \
+    "${hdr}EXPOSURE=0\n\n-Y 1 +X 1\n$b1"
+bad a_cut_picture_is_refused 'byte 59: the pixels end too early' \
+    "$hdr\n-Y 1 +X 2\n$b1"
+bad a_run_beyond_its_row_is_refused 'byte 59: expected a run that ends' \
+    "$hdr\n-Y 1 +X 8\n$row\211\200$b1$b1"
+bad a_row_of_another_width_is_refused 'byte 55: expected a row of' \
+    "$hdr\n-Y 1 +X 8\n\002\002\0\011\210\200$b1$b1"
+bad a_repetition_of_nothing_is_refused 'byte 55: expected a repetition' \
+    "$hdr\n-Y 1 +X 8\n\001\001\001\003$b1"
+bad bytes_after_the_pixels_are_refused 'byte 59: unexpected bytes' \
+    "$hdr\n-Y 1 +X 1\n$b1$b1"
+bad openexr_is_refused_with_the_way_to_convert_it \
+    "byte 0: OpenEXR is not read; 'oiiotool s.exr -o s.hdr'" \
+    'v/1\001\002\0\0\0'
+blob low "Pf\n2 1\n-1\n$two\0\0\0\272" &&
+    grep -q 'low.map: 3 channels a little below 0 are 0$' out.txt
+say what_is_a_little_below_0_is_0_and_counted $?
+bad what_is_far_below_0_is_refused 'pixel 1 of row 0 from the top: expected' \
+    "Pf\n2 1\n-1\n$two\0\0\200\273"
 exit $((failures > 0))

@@ -10,7 +10,7 @@
 #include "lib/program/cli.h"
 #include "lib/program/alloc.h"
 #include "scene/read/read_obj.h"
-#include "scene/read/read_sky.h"
+#include "scene/sky/read_sky.h"
 #include "scene/read/read_table.h"
 #include "scene/ql_blob.h"
 #include "lib/math/soft_vec.h"
@@ -238,21 +238,24 @@ static void read_colour(text_t *text, world_sky_t *sky)
 static void read_map(text_t *text, world_sky_t *sky)
 {
     char *path = find_path(text, "sky", text_word(text));
-    const char *word = text_word(text);
+    sky_rows_t rows = SKY_AS_WRITTEN;
+    const char *word;
 
-    if (word != NULL) {
-        if (strcmp(word, "rotate") != 0) {
+    while ((word = text_word(text)) != NULL) {
+        if (strcmp(word, "flip") == 0) {
+            rows = SKY_FLIPPED;
+        } else if (strcmp(word, "rotate") == 0) {
+            sky->rotate = text_number(text, "degrees");
+            if (!(sky->rotate >= -ROTATE_MAX && sky->rotate <= ROTATE_MAX)) {
+                text_fail(text, "expected %g degrees at most", ROTATE_MAX);
+            }
+        } else {
             text_fail(text,
-                    "expected sky FILE.pfm [rotate DEGREES], found "
-                    "'%s'",
+                    "expected sky FILE [rotate DEGREES] [flip], found '%s'",
                     word);
         }
-        sky->rotate = text_number(text, "degrees");
-        if (!(sky->rotate >= -ROTATE_MAX && sky->rotate <= ROTATE_MAX)) {
-            text_fail(text, "expected %g degrees at most", ROTATE_MAX);
-        }
     }
-    read_sky(sky, path);
+    read_sky(sky, path, rows);
     free(path);
 }
 
@@ -261,7 +264,7 @@ static void read_sky_line(text_t *text, world_t *world)
     const size_t word = strcspn(text->rest, " \t\v\f");
 
     if (word == 0) {
-        text_fail(text, "expected sky RED GREEN BLUE or sky FILE.pfm");
+        text_fail(text, "expected sky RED GREEN BLUE or sky FILE");
     }
     if (strspn(text->rest, "0123456789+-.eE") == word) {
         read_colour(text, &world->sky);
