@@ -10,6 +10,7 @@
 #include "blob/ql_blob_open.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
+#include "scene/mesh/gain.h"
 #include "scene/mesh/smooth.h"
 #include "support/ql_test.h"
 
@@ -58,16 +59,24 @@ static inline void add_triangle(
     world_add_face(world, &face);
 }
 
-/* As compile_scene(), and the grid for who looks at it. */
-static inline void build(model_t *model, grid_t *grid, const world_t *world)
+/* As compile_scene(), with the grid and the tree for who looks at them. */
+static inline void build_with(
+        model_t *model, grid_t *grid, const world_t *world, bvh_t *bvh)
 {
     static const bvh_cost_t cost = {100, 80};
-    bvh_t bvh;
 
     grid_round(grid, world);
+    (void)gain_faces(grid, world);
     smooth_corners(grid, world);
-    bvh_build(&bvh, grid, 4, &cost, true);
-    compile_model(model, world, grid, &bvh, 16);
+    bvh_build(bvh, grid, 4, &cost, true);
+    compile_model(model, world, grid, bvh, 16);
+}
+
+static inline void build(model_t *model, grid_t *grid, const world_t *world)
+{
+    bvh_t bvh;
+
+    build_with(model, grid, world, &bvh);
     bvh_free(&bvh);
 }
 

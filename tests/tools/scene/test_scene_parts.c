@@ -290,6 +290,115 @@ TEST(kd_and_ks_never_exceed_1_and_keep_their_ratio)
     NOTE("200000 materials, %lu scaled", scaled);
 }
 
+/* ---- lamps ---- */
+
+/* Area of light i's surface in the world's units. */
+static double area_on_grid(const model_t *model, const grid_t *grid,
+        const bvh_t *bvh, uint32_t triangle)
+{
+    const grid_face_t *face = grid->faces + bvh->order[triangle];
+    const double unit = soft_double(grid->unit);
+    int64_t n[3];
+
+    if (face->sphere != 0) {
+        const double r = model->spheres[face->sphere - 1].radius / 256.0 * unit;
+
+        return 4 * PI * r * r;
+    }
+    grid_normal(grid, face, n);
+    return sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] +
+                   (double)n[2] * (double)n[2]) /
+           2 * unit * unit;
+}
+
+static double area_as_written(const world_t *world, const grid_face_t *face)
+{
+    double p[3][3], a[3], b[3], sum = 0;
+
+    if (face->sphere != 0) {
+        const double r = world->spheres[face->source].radius;
+
+        return 4 * PI * r * r;
+    }
+    for (int i = 0; i < 3; i++) {
+        const uint32_t v = world->faces[face->source].vertex[i];
+
+        memcpy(p[i], world->vertices[v], sizeof p[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        a[k] = p[1][k] - p[0][k];
+        b[k] = p[2][k] - p[0][k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+
+        sum += pow(a[i] * b[j] - a[j] * b[i], 2);
+    }
+    return sqrt(sum) / 2;
+}
+
+/* Triangles and spheres of 1/10,000 of the scene, which the grid makes up to a
+ * third larger or smaller: emission times area is what was written. */
+TEST(small_lamps_keep_their_power)
+{
+    enum { LAMPS = 400 };
+    static const double floor[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}};
+    double worst = 0, without = 0;
+    world_t world;
+    model_t model;
+    grid_t grid;
+    bvh_t bvh;
+
+    open_world(&world);
+    (void)world_add_material(&world, "lamp", 4);
+    for (int k = 0; k < 3; k++) {
+        world.materials[1].ke[k] = 5 - k;
+    }
+    add_triangle(&world, floor, NULL);
+    for (int i = 0; i < LAMPS; i++) {
+        double p[3][3];
+
+        for (int k = 0; k < 3; k++) {
+            p[0][k] = 0.1 + 0.8 * uniform();
+            p[1][k] = p[0][k] + (k == i % 3 ? 1e-4 : 2e-5 * uniform());
+            p[2][k] = p[0][k] + (k == (i + 1) % 3 ? 1e-4 : 2e-5 * uniform());
+        }
+        if (i % 4 == 0) {
+            add_sphere(&world, p[0], 5e-5 * (1 + uniform()));
+            world.spheres[world.sphere_count - 1].material = 1;
+        } else {
+            add_triangle(&world, (const double(*)[3])p, NULL);
+            world.faces[world.face_count - 1].material = 1;
+        }
+    }
+    build_with(&model, &grid, &world, &bvh);
+    CHECK(model.lights_count == LAMPS, "%lu lights",
+            (unsigned long)model.lights_count);
+    for (uint32_t i = 0; i < model.lights_count; i++) {
+        const uint32_t t = model.lights[i].triangle;
+        const grid_face_t *face = grid.faces + bvh.order[t];
+        const ql_blob_material_t *m =
+                model.materials + (model.triangles[t].material & 0x3fffu);
+        const double ratio = area_on_grid(&model, &grid, &bvh, t) /
+                             area_as_written(&world, face);
+
+        without = fmax(without, fabs(ratio - 1));
+        for (int k = 0; k < 3; k++) {
+            const double ke =
+                    ldexp(m->emission[k], model.header.radiance_exp - 32);
+            const double off = fabs(ke * ratio / (5 - k) - 1);
+
+            CHECK(off <= 0x1p-9, "light %lu, channel %d: %g of %d",
+                    (unsigned long)i, k, ke * ratio, 5 - k);
+            worst = fmax(worst, off);
+        }
+    }
+    CHECK(without > 0.2, "without a gain the worst is %g off", without);
+    NOTE("%d lamps, worst %.4f; on the grid %.2f", LAMPS, worst, without);
+    bvh_free(&bvh);
+    close_all(&model, &grid, &world);
+}
+
 /* ---- maps ---- */
 
 static void open_map(world_t *world, uint32_t width, uint32_t height)
@@ -544,6 +653,7 @@ int main(int argc, char **argv)
     RUN(triangles_spheres_and_sky_are_chosen_by_their_power);
     RUN(a_sky_may_be_all_there_is);
     RUN(kd_and_ks_never_exceed_1_and_keep_their_ratio);
+    RUN(small_lamps_keep_their_power);
     RUN(texels_keep_nine_bits);
     RUN(a_map_is_sampled_by_radiance_and_solid_angle);
     RUN(normals_are_unit_vectors_on_the_front);

@@ -13,6 +13,7 @@
 #include "scene/build/build_lights.h"
 #include "scene/build/build_materials.h"
 #include "scene/build/build_sky.h"
+#include "scene/mesh/gain.h"
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
 
@@ -290,6 +291,17 @@ static void report_losses(const grid_t *grid)
     }
 }
 
+static void report_gain(soft_t gain)
+{
+    const double off = soft_double(gain) - 1;
+
+    if (off > 0.01) {
+        cli_warn("the area of a lamp is off by %.0f %% on the grid: its "
+                 "emission makes up for it",
+                100 * off);
+    }
+}
+
 void compile_scene(
         model_t *model, const world_t *world, const compile_options_t *options)
 {
@@ -298,6 +310,7 @@ void compile_scene(
 
     grid_round(&grid, world);
     report_losses(&grid);
+    report_gain(gain_faces(&grid, world));
     smooth_corners(&grid, world);
     bvh_build(&bvh, &grid, options->leaf_max,
             options->node_bits == 16 ? &cost16 : &cost8, options->quiet);

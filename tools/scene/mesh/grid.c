@@ -217,7 +217,7 @@ static bool pokes_out(const ql_blob_sphere_t *sphere)
 static void round_sphere(grid_t *grid, const world_t *world, uint32_t index)
 {
     const world_sphere_t *from = world->spheres + index;
-    grid_face_t face = {{0, 0, 0}, 0, 0, 0};
+    grid_face_t face = {{0, 0, 0}, 0, 0, 0, 0};
     ql_blob_sphere_t sphere;
 
     sphere.radius = (uint32_t)soft_round(
@@ -263,6 +263,7 @@ static void round_faces(grid_t *grid, const world_t *world)
         face.material = from->material;
         face.sphere = 0;
         face.source = (uint32_t)f;
+        face.gain = 0;
         for (int i = 0; i < 3; i++) {
             const uint32_t v = from->vertex[i];
 

@@ -20,6 +20,7 @@ typedef struct {
     uint32_t material; /* of the world */
     uint32_t sphere;   /* 1 + its index, then there are no vertices; or 0 */
     uint32_t source;   /* index among the faces of the world, or spheres */
+    uint32_t gain;     /* of its emission, as gain.h packs it; 0: none */
 } grid_face_t;
 
 typedef struct {

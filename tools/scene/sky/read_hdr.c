@@ -216,8 +216,8 @@ static const char *take_row(cursor_t *c, uint8_t *row, uint32_t width)
     return take_runs(c, row, width);
 }
 
-static void widen_row(float *to, const uint8_t *row, uint32_t width,
-        const layout_t *layout)
+static void widen_row(
+        float *to, const uint8_t *row, uint32_t width, const layout_t *layout)
 {
     for (uint32_t x = 0; x < width; x++) {
         const uint8_t *p = row + 4 * (layout->leftward ? width - 1 - x : x);
