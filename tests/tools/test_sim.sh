@@ -232,7 +232,8 @@ same samples_alone_set_spp whole.pfm s.pfm
 
 # Parts that do not fit
 for other in '--seed 4' '--bounces 1' '--sampler random' '--direct none' \
-    '--indirect none' '--size 14x20'; do
+    '--indirect none' '--size 14x20' --roulette '--light-samples 2' \
+    '--lights all'; do
     "$sim" scene.qlb --save-sums other.qls $small --samples 0:1 $other
     expect "merge_refuses_another${other%% *}" 2 'other.qls: its' \
         "$merge" part1.qls other.qls -o no.ppm
