@@ -388,15 +388,12 @@ bad_obj a_vertex_that_never_comes_is_named_at_its_face 5 \
 bad_obj a_negative_index_too_far_back_is_refused 5 'expected a vertex from -4' \
     'f -1 -2 -5\n'
 bad_obj index_0_is_refused 5 'expected a corner' 'f 0 1 2\n'
-bad_obj two_corners_are_refused 5 'expected three or more' 'f 1 2\n'
+bad_obj a_hash_inside_a_corner_is_no_comment 5 'expected a corner' 'f 1 2 3#4\n'
 bad_obj a_corner_of_letters_is_refused 5 'expected a corner' 'f 1 2 x\n'
 bad_obj a_corner_with_four_indices_is_refused 5 'expected a corner' \
     'f 1/1/1/1 2 3\n'
 bad_obj a_vertex_of_two_numbers_is_refused 5 'expected three coord' 'v 1 2\n'
-bad_obj a_vertex_of_nan_is_refused 5 'expected three coord' 'v 1 2 nan\n'
-bad_obj a_vertex_of_infinity_is_refused 5 'expected three coord' 'v 1 2 inf\n'
 bad_obj a_vertex_of_letters_is_refused 5 'expected three coord' 'v 1 2 3x\n'
-bad_obj usemtl_without_a_name_is_refused 5 'expected usemtl NAME' 'usemtl\n'
 bad_obj the_line_of_a_continued_face_is_its_first 5 'expected a corner' \
     'f 1 \\\n 2 \\\n x\n'
 good_obj polygons_become_fans 3 'v 1 1 1\nf 1 2 3 4 5\n'
@@ -404,7 +401,8 @@ good_obj all_forms_of_corners_are_read 5 \
     'f 1/1 2/2 3/3\nf 1//1 2//2 4//4\nf 2/2/2 3/3/3 4/4/4\nf 1/ 3/ 4/\n'\
 'f -1 -2 -3\n'
 good_obj a_vertex_may_follow_its_face 1 'f 1 2 5\nv 1 1 1\n'
-good_obj an_empty_mesh_is_a_scene 0 ''
+bad_obj vertices_without_a_face_are_refused 4 'expected a face before the end' \
+    ''
 good_obj a_scene_of_degenerate_faces_is_empty 0 'f 1 1 2\nf 1 2 2\n'
 good_obj degenerate_faces_are_dropped 1 'f 1 1 2\nv 2 0 0\nf 1 2 5\nf 1 2 3\n'
 warns they_are_counted_in_one_line 1 \
@@ -420,9 +418,6 @@ warns a_missing_library_is_reported_once 1 "cannot read 'in/no.mtl'"
 # ---- MTL ----
 bad_mtl a_negative_ke_is_refused 3 'expected a Ke from 0' \
     'newmtl w\nKd 1 1 1\nKe 1 -1 1\n'
-bad_mtl a_kd_of_letters_is_refused 2 'expected a colour' 'newmtl w\nKd red\n'
-bad_mtl keys_before_newmtl_are_refused 1 'expected newmtl' 'Kd 1 1 1\n'
-bad_mtl newmtl_without_a_name_is_refused 1 'expected newmtl NAME' 'newmtl\n'
 bad_mtl a_spectral_kd_is_refused 2 'expected a colour for Kd as RGB' \
     'newmtl w\nKd spectral x.rfl\n'
 reset_input
@@ -431,15 +426,17 @@ printf 'map_Kd a.png\nmap_Kd b.png\n' >>in/a.mtl
 "$scene" in/a.scene -o out.qlb --quiet 2>err.txt
 say unmodelled_keys_of_materials_are_no_errors $?
 warns kd_above_1_is_reported 1 "in/a.mtl:2: Kd of 'w' clamped"
-warns other_illuminations_are_reported 1 "'illum 9' is not modelled"
+warns other_illuminations_are_reported 1 \
+    "in/a.mtl:4: 'illum 9' of 'w' is not modelled: opaque; illum 7 makes it"
 warns ks_without_ns_says_what_it_is 1 "'w' has a Ks and no Ns: it is 0"
 warns kd_and_ks_above_1_say_by_how_much 1 \
     "Kd + Ks of 'w' is above 1: both scaled by 0.5"
-warns maps_are_reported_once 1 "'map_Kd' is not modelled"
+warns maps_are_reported_once 1 "'map_Kd' of 'w' is not modelled"
 rm -f out.qlb
 reset_input
 printf 'newmtl w\nKa 1 1 1\nKd 1 0 0\nKs 0 0 0\nNs 10\n' >in/a.mtl
 printf 'Ni 1.45\nd 1\nillum 2\n' >>in/a.mtl
+printf 'sky 1 1 1\n' >>in/a.scene
 "$scene" in/a.scene -o out.qlb --quiet 2>err.txt && [ ! -s err.txt ]
 say what_every_exporter_writes_is_silent $?
 rm -f out.qlb
@@ -455,8 +452,6 @@ bad_mtl a_glass_denser_than_any_has_the_line_of_its_ni 2 'expected a Ni' \
     'newmtl w\nNi 65\nKd 1 1 1\nillum 7\n'
 bad_mtl a_glass_of_ni_0_is_refused 3 'expected a Ni' \
     'newmtl w\nillum 7\nNi 0\nnewmtl x\n'
-bad_mtl an_ns_of_letters_is_refused 2 'expected the exponent Ns' \
-    'newmtl w\nNs shiny\n'
 
 # gloss CLAIM LINES WANTED: the materials and gloss that an MTL gives
 gloss() {
@@ -483,7 +478,7 @@ gloss illum_3_without_ks_is_diffuse 'Kd 0.5\nillum 3\n' "$plain"
 gloss illum_7_is_glass \
     'illum 7\nNi 1.5\nTf 0.25 0.25 0.25\nKd 1 1 1\nKs 1 1 1\n' \
     "$none g $half  00018000 80000000  3"
-[ ! -s err.txt ]
+! grep -q -v 'the picture is black' err.txt
 say what_glass_ignores_is_silent $?
 gloss glass_begins_with_ni_1_and_tf_1 'illum 7\n' \
     "$none g 80000000 80000000 80000000  00010000 80000000  3"
@@ -507,7 +502,7 @@ warns scaling_is_reported 1 "Kd + Ks of 'w' is above 1: both scaled by 0.6667"
 gloss a_sum_of_1_is_not_scaled 'Kd 0.9 0.3 0.7\nKs 0.1 0.7 0.3\nNs 1\n' \
     "m 73333333 26666666 5999999a \
 g 0ccccccd 5999999a 26666666  00010000 2eeeeeef  1"
-[ ! -s err.txt ]
+! grep -q -v 'the picture is black' err.txt
 say a_sum_of_1_is_silent $?
 gloss a_trace_of_ks_keeps_a_chance 'Kd 1 1 1\nKs 0 0 1e-9\nNs 1\n' \
     "m 7ffffffe 7ffffffe 7ffffffe \

@@ -302,6 +302,15 @@ static void report_gain(soft_t gain)
     }
 }
 
+static void report_darkness(const model_t *model, const world_t *world)
+{
+    if (model->lights_count == 0) {
+        cli_warn("%s: no surface has a Ke and there is no sky: the picture is "
+                 "black",
+                world->path);
+    }
+}
+
 void compile_scene(
         model_t *model, const world_t *world, const compile_options_t *options)
 {
@@ -315,6 +324,7 @@ void compile_scene(
     bvh_build(&bvh, &grid, options->leaf_max,
             options->node_bits == 16 ? &cost16 : &cost8, options->quiet);
     compile_model(model, world, &grid, &bvh, options->node_bits);
+    report_darkness(model, world);
     bvh_free(&bvh);
     grid_free(&grid);
 }

@@ -14,7 +14,9 @@
  *   other or none, Ks    the Phong lobe of Ks and Ns beside Kd
  *
  * Ke makes any of them a light. Anything else that would change the picture is
- * reported once by name on stderr; so is what is out of range, once each.
+ * reported with its line, its material and what is done instead; so is what is
+ * out of range or no number, which leaves a property as it was. See
+ * notes_report().
  *
  *   world  -  in, out
  *   path   -  of the MTL file

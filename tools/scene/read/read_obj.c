@@ -12,6 +12,7 @@
 #include "lib/program/alloc.h"
 #include "lib/program/cli.h"
 #include "lib/program/names.h"
+#include "scene/foreign/notes.h"
 #include "scene/read/read_mtl.h"
 #include "scene/read/text.h"
 
@@ -22,6 +23,18 @@ typedef struct {
     uint32_t vertex, normal;
 } corner_t;
 
+/* A face as the file has it: its triangles go to that of the next one. */
+typedef struct {
+    size_t first_face;
+    unsigned line;
+} polygon_t;
+
+/* A name of usemtl. */
+typedef struct {
+    char *name;
+    unsigned line; /* that used it first */
+} used_t;
+
 /* One mesh being read. Materials may be used before they are defined, so faces
  * first name an entry of used, and get the material's index at the end. */
 typedef struct {
@@ -31,23 +44,41 @@ typedef struct {
     size_t first_normal;
     size_t first_face;
     size_t first_material;
-    char **used; /* names as usemtl gives them */
+    used_t *used;
     size_t used_count, used_capacity;
     size_t current;    /* entry of used; 0 is "none yet" */
-    corner_t *polygon; /* corners of the face being read */
-    size_t polygon_capacity;
+    corner_t *corners; /* of the face being read */
+    size_t corner_capacity;
+    polygon_t *polygons;
+    size_t polygon_count, polygon_capacity;
     int64_t index_max; /* largest that was ahead of its vertex */
     unsigned index_max_line;
-    names_t reported; /* keys and libraries reported already */
+    bool has_library;  /* there is a mtllib */
+    names_t libraries; /* read already */
+    notes_t notes;
 } reader_t;
 
 static void read_vertex(reader_t *reader)
 {
     double position[3];
+    unsigned more = 0;
 
-    /* more numbers may follow, a weight or a colour: not needed */
     for (int k = 0; k < 3; k++) {
-        position[k] = text_number(&reader->text, "three coordinates");
+        position[k] = text_coordinate(&reader->text, "three coordinates");
+    }
+    if (isnan(position[0] + position[1] + position[2])) {
+        position[0] = NAN; /* until drop_faces() */
+        notes_add(&reader->notes, reader->text.line, "vertices of no numbers",
+                "a vertex of no finite numbers is dropped with the faces that "
+                "use it");
+    }
+    while (text_word(&reader->text) != NULL) {
+        more++;
+    }
+    if (more >= 3) { /* one more may be a weight, which is not needed */
+        notes_add(&reader->notes, reader->text.line, "vertex colours",
+                "colours of vertices are not modelled: the Kd of the material "
+                "is used");
     }
     world_add_vertex(reader->world, position);
 }
@@ -64,11 +95,8 @@ static void read_normal(reader_t *reader)
 
         normal[k] = word != NULL ? strtod(word, &end) : NAN;
         if (word == NULL || *end != '\0' || !(fabs(normal[k]) <= NORMAL_MAX)) {
-            if (names_add(&reader->reported, "vn of no numbers")) {
-                cli_warn("%s:%u: expected vn X Y Z: triangles that use it are "
-                         "flat",
-                        reader->text.path, reader->text.line);
-            }
+            notes_add(&reader->notes, reader->text.line, "vn of no numbers",
+                    "expected vn X Y Z: triangles that use it are flat");
             memset(normal, 0, sizeof normal);
             break;
         }
@@ -90,7 +118,7 @@ static bool read_index(char **at, long *index)
         return false;
     }
     *at = end;
-    return *index != 0;
+    return true;
 }
 
 /* The world's index of a corner's vertex. */
@@ -129,27 +157,39 @@ static uint32_t find_normal(const reader_t *reader, long n)
     return (uint32_t)(reader->first_normal + (size_t)index) + 1;
 }
 
+/* A slash and the index of a vt or vn, which may be missing; 0 says that too.
+ * False if something else follows. */
+static bool read_optional(reader_t *reader, char **at, long *index)
+{
+    if (**at != '/') {
+        return **at == '\0';
+    }
+    ++*at;
+    if (**at == '/' || **at == '\0') {
+        return true;
+    }
+    if (!read_index(at, index)) {
+        return false;
+    }
+    if (*index == 0) {
+        notes_add(&reader->notes, reader->text.line, "index 0",
+                "index 0 of a vt or vn is taken for a missing one");
+    }
+    return true;
+}
+
 /* v, v/vt, v//vn or v/vt/vn */
 static corner_t read_corner(reader_t *reader, char *word)
 {
     char *at = word;
-    long v, n = 0, other;
+    long v = 0, n = 0, other;
     corner_t corner;
-    bool good = read_index(&at, &v);
 
-    if (good && *at == '/') {
-        at++;
-        /* vt may be missing, but a lone "v/" may also end the corner */
-        good = *at == '/' || *at == '\0' || read_index(&at, &other);
-        if (good && *at == '/') {
-            at++;
-            good = *at == '\0' || read_index(&at, &n);
-        }
-    }
-    if (!good || *at != '\0') {
+    if (!read_index(&at, &v) || v == 0 || !read_optional(reader, &at, &other) ||
+            !read_optional(reader, &at, &n) || *at != '\0') {
         text_fail(&reader->text,
                 "expected a corner like 1, 1/2, 1//3 or 1/2/3 "
-                "with no index 0, found '%s'",
+                "with no vertex 0, found '%s'",
                 word);
     }
     corner.vertex = find_vertex(reader, v);
@@ -163,6 +203,23 @@ static void set_corner(world_face_t *face, int i, corner_t corner)
     face->normal[i] = corner.normal;
 }
 
+static void begin_polygon(reader_t *reader)
+{
+    const polygon_t polygon = {reader->world->face_count, reader->text.line};
+
+    reader->polygons = alloc_grow(reader->polygons, reader->polygon_count,
+            &reader->polygon_capacity, sizeof *reader->polygons);
+    reader->polygons[reader->polygon_count++] = polygon;
+}
+
+/* Where the triangles of a polygon end. */
+static size_t find_end(const reader_t *reader, size_t polygon)
+{
+    return polygon + 1 < reader->polygon_count
+                   ? reader->polygons[polygon + 1].first_face
+                   : reader->world->face_count;
+}
+
 static void read_face(reader_t *reader)
 {
     size_t count = 0;
@@ -172,19 +229,21 @@ static void read_face(reader_t *reader)
     while ((word = text_word(&reader->text)) != NULL) {
         const corner_t corner = read_corner(reader, word);
 
-        reader->polygon = alloc_grow(reader->polygon, count,
-                &reader->polygon_capacity, sizeof *reader->polygon);
-        reader->polygon[count++] = corner;
+        reader->corners = alloc_grow(reader->corners, count,
+                &reader->corner_capacity, sizeof *reader->corners);
+        reader->corners[count++] = corner;
     }
     if (count < 3) {
-        text_fail(&reader->text, "expected three or more corners, found %zu",
-                count);
+        notes_add(&reader->notes, reader->text.line, "faces without area",
+                "a face of fewer than three corners is dropped");
+        return;
     }
+    begin_polygon(reader);
     face.material = (uint32_t)reader->current;
-    set_corner(&face, 0, reader->polygon[0]);
+    set_corner(&face, 0, reader->corners[0]);
     for (size_t i = 2; i < count; i++) {
-        set_corner(&face, 1, reader->polygon[i - 1]);
-        set_corner(&face, 2, reader->polygon[i]);
+        set_corner(&face, 1, reader->corners[i - 1]);
+        set_corner(&face, 2, reader->corners[i]);
         world_add_face(reader->world, &face);
     }
 }
@@ -193,7 +252,8 @@ static void add_used(reader_t *reader, const char *name)
 {
     reader->used = alloc_grow(reader->used, reader->used_count,
             &reader->used_capacity, sizeof *reader->used);
-    reader->used[reader->used_count++] = alloc_text(name, strlen(name));
+    reader->used[reader->used_count].name = alloc_text(name, strlen(name));
+    reader->used[reader->used_count++].line = reader->text.line;
 }
 
 static void read_usemtl(reader_t *reader)
@@ -201,10 +261,12 @@ static void read_usemtl(reader_t *reader)
     const char *name = text_rest(&reader->text);
 
     if (name == NULL) {
-        text_fail(&reader->text, "expected usemtl NAME");
+        notes_add(&reader->notes, reader->text.line, "usemtl without a name",
+                "usemtl without a name is the newmtl without one, or grey 0.5");
+        name = "";
     }
     for (size_t i = 1; i < reader->used_count; i++) {
-        if (strcmp(reader->used[i], name) == 0) {
+        if (strcmp(reader->used[i].name, name) == 0) {
             reader->current = i;
             return;
         }
@@ -228,32 +290,45 @@ static void read_library(reader_t *reader, const char *name)
 {
     char *path = text_beside(reader->text.path, name);
 
-    if (names_add(&reader->reported, path)) {
+    if (names_add(&reader->libraries, path)) {
         if (is_readable(path)) {
             read_mtl(reader->world, path);
         } else {
-            cli_warn("%s:%u: cannot read '%s'; its materials are grey 0.5",
-                    reader->text.path, reader->text.line, path);
+            notes_add(&reader->notes, reader->text.line, "missing libraries",
+                    "cannot read '%s'; its materials are grey 0.5", path);
         }
     }
     free(path);
 }
 
-/* A name may hold blanks, and a line may hold several names. */
-static void read_mtllib(reader_t *reader)
+/* Read the library that the rest of the line names, if there is one. */
+static bool read_whole_name(reader_t *reader)
 {
-    char *path, *word;
-    bool whole;
+    char *path = text_beside(reader->text.path, reader->text.rest);
+    const bool whole = *reader->text.rest != '\0' && is_readable(path);
 
-    if (*reader->text.rest == '\0') {
-        text_fail(&reader->text, "expected mtllib FILE.mtl");
-    }
-    path = text_beside(reader->text.path, reader->text.rest);
-    whole = is_readable(path);
     free(path);
     if (whole) {
         read_library(reader, text_rest(&reader->text));
-        return;
+    }
+    return whole;
+}
+
+/* A name may hold blanks and begin with a '#', a line may hold several names,
+ * and a comment behind them. */
+static void read_mtllib(reader_t *reader)
+{
+    char *word;
+
+    reader->has_library = true;
+    do {
+        if (read_whole_name(reader)) {
+            return;
+        }
+    } while (text_cut_comment(reader->text.rest));
+    if (*reader->text.rest == '\0') {
+        notes_add(&reader->notes, reader->text.line, "mtllib without a name",
+                "mtllib without a name names no materials");
     }
     while ((word = text_word(&reader->text)) != NULL) {
         read_library(reader, word);
@@ -281,29 +356,50 @@ static void read_key(reader_t *reader, const char *key)
             return;
         }
     }
-    if (names_add(&reader->reported, key)) {
-        cli_warn("%s:%u: '%s' is not modelled", reader->text.path,
-                reader->text.line, key);
+    notes_add(&reader->notes, reader->text.line, "keys that are not modelled",
+            "'%s' is not modelled: left out", key);
+}
+
+static bool is_exactly(const char *name, const char *other)
+{
+    return strcmp(name, other) == 0;
+}
+
+/* 1 + the material of a name, of which the last definition counts; 0 if there
+ * is none. */
+static size_t find_material(const reader_t *reader, const char *name,
+        bool (*is)(const char *, const char *))
+{
+    const world_t *world = reader->world;
+
+    for (size_t m = world->material_count; m > reader->first_material; m--) {
+        if (is(world->materials[m - 1].name, name)) {
+            return m;
+        }
     }
+    return 0;
 }
 
 /* The material that entry i of used names: a new grey one if there is none. */
 static size_t resolve(reader_t *reader, size_t i)
 {
-    world_t *world = reader->world;
-    const char *name = reader->used[i];
+    const used_t *used = reader->used + i;
+    size_t found = 0;
 
-    /* the last definition counts */
-    for (size_t m = world->material_count; m > reader->first_material; m--) {
-        if (i > 0 && strcmp(world->materials[m - 1].name, name) == 0) {
-            return m - 1;
-        }
-    }
     if (i > 0) {
-        cli_warn("%s: material '%s' is not defined: grey 0.5",
-                reader->text.path, name);
+        found = find_material(reader, used->name, is_exactly);
+        found = found > 0
+                        ? found
+                        : find_material(reader, used->name, text_is_same_name);
     }
-    return world_add_material(world, name, strlen(name));
+    if (found > 0) {
+        return found - 1;
+    }
+    if (i > 0 && used->name[0] != '\0') {
+        notes_add(&reader->notes, used->line, "materials that are not defined",
+                "material '%s' is not defined: grey 0.5", used->name);
+    }
+    return world_add_material(reader->world, used->name, strlen(used->name));
 }
 
 static void resolve_materials(reader_t *reader)
@@ -329,38 +425,114 @@ static void resolve_materials(reader_t *reader)
 static void resolve_normals(reader_t *reader)
 {
     world_t *world = reader->world;
-    bool missing = false;
 
-    for (size_t f = reader->first_face; f < world->face_count; f++) {
+    for (size_t p = 0; p < reader->polygon_count; p++) {
+        bool missing = false;
+
+        for (size_t f = reader->polygons[p].first_face; f < find_end(reader, p);
+                f++) {
+            for (int i = 0; i < 3; i++) {
+                uint32_t *normal = world->faces[f].normal + i;
+
+                if (*normal > world->normal_count) {
+                    *normal = 0;
+                    missing = true;
+                }
+            }
+        }
+        if (missing) {
+            notes_add(&reader->notes, reader->polygons[p].line, "missing vn",
+                    "corners name normals that are not there: the face is "
+                    "flat");
+        }
+    }
+}
+
+/* Does a polygon have a corner that is no point? */
+static bool is_lost(const reader_t *reader, size_t polygon)
+{
+    const world_t *world = reader->world;
+
+    for (size_t f = reader->polygons[polygon].first_face;
+            f < find_end(reader, polygon); f++) {
         for (int i = 0; i < 3; i++) {
-            uint32_t *normal = world->faces[f].normal + i;
-
-            if (*normal > world->normal_count) {
-                *normal = 0;
-                missing = true;
+            if (isnan(world->vertices[world->faces[f].vertex[i]][0])) {
+                return true;
             }
         }
     }
-    if (missing) {
-        cli_warn("%s: corners name normals that are not there: those triangles "
-                 "are flat",
-                reader->text.path);
+    return false;
+}
+
+/* Drop the polygons of vertices that are no points, then let these be 0. The
+ * polygons are not needed any more. */
+static void drop_faces(reader_t *reader)
+{
+    world_t *world = reader->world;
+    size_t kept = reader->first_face;
+
+    for (size_t p = 0; p < reader->polygon_count; p++) {
+        if (is_lost(reader, p)) {
+            notes_add(&reader->notes, reader->polygons[p].line,
+                    "faces of no numbers",
+                    "a face of a vertex of no finite numbers is dropped");
+            continue;
+        }
+        for (size_t f = reader->polygons[p].first_face; f < find_end(reader, p);
+                f++) {
+            world->faces[kept++] = world->faces[f];
+        }
+    }
+    world->face_count = kept;
+    for (size_t v = reader->first_vertex; v < world->vertex_count; v++) {
+        if (isnan(world->vertices[v][0])) {
+            memset(world->vertices[v], 0, sizeof world->vertices[v]);
+        }
     }
 }
 
 static void close_reader(reader_t *reader)
 {
+    notes_report(&reader->notes);
     for (size_t i = 0; i < reader->used_count; i++) {
-        free(reader->used[i]);
+        free(reader->used[i].name);
     }
     free(reader->used);
-    free(reader->polygon);
-    names_free(&reader->reported);
+    free(reader->corners);
+    free(reader->polygons);
+    names_free(&reader->libraries);
     text_close(&reader->text);
+}
+
+/* Fail if a face has a vertex that has not come, or if there is no face. */
+static void check_faces(reader_t *reader)
+{
+    const size_t vertices = reader->world->vertex_count - reader->first_vertex;
+
+    if (reader->index_max >= (int64_t)vertices) {
+        reader->text.line = reader->index_max_line;
+        text_fail(&reader->text, "expected a vertex from 1 to %zu, found %lld",
+                vertices, (long long)reader->index_max + 1);
+    }
+    if (reader->polygon_count > 0) {
+        return;
+    }
+    if (vertices > 0) {
+        text_fail(&reader->text,
+                "expected a face before the end of the file, found a cloud of "
+                "%zu points",
+                vertices);
+    }
+    if (!reader->has_library) {
+        text_fail(&reader->text,
+                "expected v and f, or mtllib, before the end of the file, "
+                "found nothing of a mesh");
+    }
 }
 
 void read_obj(world_t *world, const char *path)
 {
+    static const char *const names[] = {"usemtl", "mtllib", NULL};
     reader_t reader = {0};
     char *key;
 
@@ -371,19 +543,14 @@ void read_obj(world_t *world, const char *path)
     reader.first_material = world->material_count;
     reader.index_max = -1;
     add_used(&reader, "(none)");
-    text_open(&reader.text, path);
+    text_open_foreign(&reader.text, path, &reader.notes, names);
     while (text_line(&reader.text)) {
         key = text_word(&reader.text);
         read_key(&reader, key);
     }
-    if (reader.index_max >=
-            (int64_t)(world->vertex_count - reader.first_vertex)) {
-        reader.text.line = reader.index_max_line;
-        text_fail(&reader.text, "expected a vertex from 1 to %zu, found %lld",
-                world->vertex_count - reader.first_vertex,
-                (long long)reader.index_max + 1);
-    }
+    check_faces(&reader);
     resolve_materials(&reader);
     resolve_normals(&reader);
+    drop_faces(&reader);
     close_reader(&reader);
 }

@@ -145,6 +145,18 @@ static void read_lights(text_t *text, world_t *world)
     world->two_sided = word[0] == 't';
 }
 
+static bool is_readable(const text_t *text, const char *name)
+{
+    char *path = text_beside(text->path, name);
+    FILE *file = fopen(path, "rb");
+
+    free(path);
+    if (file != NULL) {
+        fclose(file);
+    }
+    return file != NULL;
+}
+
 /* The path of a file that the scene names; fails if it cannot be read. */
 static char *find_path(const text_t *text, const char *what, const char *name)
 {
@@ -161,10 +173,12 @@ static char *find_path(const text_t *text, const char *what, const char *name)
 
 static void read_mesh(text_t *text, world_t *world)
 {
-    const char *name = text_rest(text);
+    char *name = text_rest(text);
     char *path;
 
-    if (name == NULL) {
+    while (name != NULL && !is_readable(text, name) && text_cut_comment(name)) {
+    }
+    if (name == NULL || *name == '\0') {
         text_fail(text, "expected mesh FILE.obj");
     }
     path = find_path(text, "mesh", name);
@@ -315,18 +329,36 @@ static void read_line(text_t *text, world_t *world, unsigned *seen)
     text_finish(text);
 }
 
+/* 1 + the last material of a name that a library defines, or else of that name
+ * but for a comment; 0 if there is none. */
+static size_t find_material(const world_t *world, const char *name)
+{
+    size_t found = 0;
+    bool exact = false;
+
+    for (size_t m = 0; m < world->material_count; m++) {
+        const world_material_t *material = world->materials + m;
+        const bool same = strcmp(material->name, name) == 0;
+
+        if (material->defined &&
+                (same || (!exact && text_is_same_name(material->name, name)))) {
+            found = m + 1;
+            exact = same;
+        }
+    }
+    return found;
+}
+
 /* Materials may be defined after the spheres made of them. The last definition
  * of a name counts. */
 static void resolve_spheres(world_t *world, text_t *text)
 {
     for (size_t i = 0; i < world->sphere_count; i++) {
         world_sphere_t *sphere = world->spheres + i;
-        size_t m = world->material_count;
+        size_t m = find_material(world, sphere->name);
 
-        while (m > 0 && !(world->materials[m - 1].defined &&
-                                strcmp(world->materials[m - 1].name,
-                                        sphere->name) == 0)) {
-            m--;
+        while (m == 0 && text_cut_comment(sphere->name)) {
+            m = find_material(world, sphere->name);
         }
         if (m == 0) {
             text->line = sphere->line;
@@ -341,8 +373,10 @@ static void resolve_spheres(world_t *world, text_t *text)
 
 void read_scene(world_t *world, text_t *text)
 {
+    static const char *const names[] = {"mesh", "sphere", NULL};
     unsigned seen = 0;
 
+    text->whole = names;
     memset(world, 0, sizeof *world);
     world->path = text->path;
     world->width = world->height = 256;
