@@ -5,7 +5,8 @@
 
 #include "lib/math/soft_vec.h"
 
-/* A gain is 2^GAIN_BITS + its low bits, times 2^(its other bits - GAIN_BIAS). */
+/* A gain is 2^GAIN_BITS + its low bits, times 2 to its other bits less
+ * GAIN_BIAS. */
 enum { GAIN_BITS = 8, GAIN_BIAS = 32, GAIN_LEAST = -16, GAIN_MOST = 4 };
 
 soft_t gain_value(uint32_t gain)
@@ -60,7 +61,7 @@ static soft_t find_ratio(
 {
     const soft_t unit2 = soft_mul(grid->unit, grid->unit);
     int64_t n[3];
-    soft_t grid2;
+    soft_t grid2, written2;
 
     if (face->sphere != 0) {
         const soft_t r = soft_from(world->spheres[face->source].radius);
@@ -73,8 +74,9 @@ static soft_t find_ratio(
     grid_normal(grid, face, n);
     /* below 3 2^60 */
     grid2 = soft_int(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 0);
-    return soft_sqrt(soft_div(square_written(world, world->faces + face->source),
-            soft_mul(grid2, soft_mul(unit2, unit2))));
+    written2 = square_written(world, world->faces + face->source);
+    return soft_sqrt(
+            soft_div(written2, soft_mul(grid2, soft_mul(unit2, unit2))));
 }
 
 soft_t gain_faces(grid_t *grid, const world_t *world)
