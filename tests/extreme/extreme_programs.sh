@@ -47,7 +47,7 @@ camera eye 0.3 0.3 2 look 0.3 0.3 0 up 0 1 0 fov 40
 image 8 8
 END
 say case_06_faces_without_area_compile $?
-grep -q 'dropped 4 degenerate faces' "$work/flat.log"
+grep -q 'dropped 4 faces without area' "$work/flat.log"
 say case_06_faces_without_area_are_dropped_and_counted $?
 [ "$("$build/qlux-scene" --info "$work/flat.qlb" |
     sed -n 's/^lights: //p')" = 0 ]

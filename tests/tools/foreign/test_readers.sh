@@ -354,6 +354,42 @@ a.obj:1: 'solidus' is not modelled: left out
 a.obj:2: 'plywood' is not modelled: left out
 END
 
+# ---- what is lost on the grid ----
+# A tunnel of faces 1 wide and 400 long; in its middle a thing of 0.001.
+awk 'BEGIN { for (z = -200; z < 200; z++)
+        printf "v 0 0 %d\nv 1 0 %d\nv 0 0 %d\nf -3 -2 -1\n", z, z, z + 1 }' \
+    >tunnel.obj
+printf 'v 0 0.1 0\nv 0.001 0.1 0\nv 0 0.101 0\nf 1 2 3\n' >thing.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >plate.obj
+scene_of() { # MESH...
+    printf 'mesh %s\n' "$@" >a.scene
+    printf 'sky 1 1 1\ncamera eye 0 0 5 look 0 0 0 fov 40\n' >>a.scene
+}
+scene_of thing.obj plate.obj tunnel.obj
+takes what_is_lost_names_the_mesh_that_makes_it_so 401 <<'END'
+tunnel.obj alone makes the scene 400 wide, which is 1 without it
+dropped 1 faces smaller than the grid, 0.0122 units wide, because the scene
+    is 400 wide (tunnel.obj)
+END
+scene_of thing.obj plate.obj
+takes a_scene_without_it_loses_nothing 2 <<'END'
+plate.obj alone makes the scene 1 wide, which is 0.001 without it
+END
+# The cut of tools/README.md, with corners counted from the first.
+awk '$1 == "v" { n++ } $1 == "f" {
+    $0 = "f " n + 1 + $2 " " n + 1 + $3 " " n + 1 + $4 } { print }' \
+    tunnel.obj >long.obj
+cut=$(sed -n '/^    awk /,/near.obj$/s/^    //p' "$root/tools/README.md")
+[ -n "$cut" ] && sh -c "$cut" &&
+    [ "$(grep -c ^f near.obj) $(grep -c ^v near.obj)" = '40 1200' ]
+say the_cut_of_the_readme_keeps_the_faces_within $?
+scene_of thing.obj near.obj
+printf 'sphere 0 0 0 radius 3 material w\nmesh lib.obj\n' >>a.scene
+echo 'mtllib a.mtl' >lib.obj
+takes seven_times_as_wide_is_not_named 41 <<'END'
+END
+reset_input
+
 # ---- no light ----
 sed -i /sky/d a.scene
 takes a_scene_without_light_says_that_it_is_black 1 <<'END'

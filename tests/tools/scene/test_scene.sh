@@ -231,7 +231,7 @@ printf 'mtllib a.mtl\n' >in/a.obj
         -e '^spheres: 1$' -e '^lights: 1$' -e '^vertices: 0$')" = 4 ]
 say a_mesh_without_faces_gives_its_materials_to_spheres $?
 warns spheres_below_the_grid_are_dropped_and_counted 1 \
-    'dropped 1 degenerate faces (0 as written, 1 on the grid)'
+    'dropped 1 faces smaller than the grid, 9.16e-05 units wide, because the'
 
 # ---- sky ----
 bad_scene a_sky_of_nothing_is_refused $a:1 'expected sky RED' 'sky\n'
@@ -405,8 +405,7 @@ bad_obj vertices_without_a_face_are_refused 4 'expected a face before the end' \
     ''
 good_obj a_scene_of_degenerate_faces_is_empty 0 'f 1 1 2\nf 1 2 2\n'
 good_obj degenerate_faces_are_dropped 1 'f 1 1 2\nv 2 0 0\nf 1 2 5\nf 1 2 3\n'
-warns they_are_counted_in_one_line 1 \
-    'dropped 2 degenerate faces (1 as written, 1 on the grid)'
+warns they_are_counted_in_one_line 1 'dropped 2 faces without area'
 good_obj unknown_keys_are_no_errors 1 'l 1 2\nl 2 3\np 1\nbevel on\nf 1 2 3\n'
 warns lines_are_reported_once 1 "'l' is not modelled"
 warns points_are_reported_once 1 "'p' is not modelled"

@@ -16,9 +16,11 @@
 #include "scene/mesh/gain.h"
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
+#include "scene/world/extent.h"
 
-#define PAGE          65536u /* index of a page's first vertex over page */
-#define PAGE_VERTICES 65535u /* in use: the last index of a page is not */
+#define PAGE            65536u /* index of a page's first vertex over page */
+#define WIDENS_MANIFOLD 10     /* such a mesh is named */
+#define PAGE_VERTICES   65535u /* in use: the last index of a page is not */
 
 /* Costs the tree is built for, in instructions. Measured on the Cornell box and
  * a mesh of 20,492 triangles, counting 35 a box and 80 a triangle: with 16-bit
@@ -273,15 +275,26 @@ void compile_model(model_t *model, const world_t *world, const grid_t *grid,
     fill_header(model, world, grid);
 }
 
-/* Say what the grid cost and what was there twice, a line each. */
-static void report_losses(const grid_t *grid)
+/* Say what the grid cost, what makes it coarse, and what was there twice, a
+ * line each. */
+static void report_losses(const grid_t *grid, const world_t *world)
 {
-    if (grid->flat_count + grid->tiny_count > 0) {
+    const world_extent_t extent = extent_find(world);
+
+    if (extent.is_mesh && extent.width >= WIDENS_MANIFOLD * extent.without) {
+        cli_warn("%s alone makes the scene %.4g wide, which is %.4g without it",
+                extent.name, extent.width, extent.without);
+    }
+    if (grid->flat_count > 0) {
+        fprintf(stderr, "qlux-scene: dropped %zu faces without area\n",
+                grid->flat_count);
+    }
+    if (grid->tiny_count > 0) {
         fprintf(stderr,
-                "qlux-scene: dropped %zu degenerate faces (%zu as "
-                "written, %zu on the grid)\n",
-                grid->flat_count + grid->tiny_count, grid->flat_count,
-                grid->tiny_count);
+                "qlux-scene: dropped %zu faces smaller than the grid, %.3g "
+                "units wide, because the scene is %.4g wide (%s)\n",
+                grid->tiny_count, soft_double(grid->unit), extent.width,
+                extent.name);
     }
     if (grid->double_count > 0) {
         fprintf(stderr,
@@ -318,7 +331,7 @@ void compile_scene(
     bvh_t bvh;
 
     grid_round(&grid, world);
-    report_losses(&grid);
+    report_losses(&grid, world);
     report_gain(gain_faces(&grid, world));
     smooth_corners(&grid, world);
     bvh_build(&bvh, &grid, options->leaf_max,

@@ -6,27 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/math/soft_vec.h"
 #include "lib/program/cli.h"
 #include "scene/ql_blob.h"
 #include "scene/mesh/triples.h"
 
 #define NONE UINT32_MAX
-
-static bool is_same_point(const world_t *world, uint32_t a, uint32_t b)
-{
-    const double *p = world->vertices[a], *q = world->vertices[b];
-
-    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
-}
-
-/* Two corners in one place: such a face must not widen the box. */
-static bool is_flat(const world_t *world, const world_face_t *face)
-{
-    const uint32_t *v = face->vertex;
-
-    return is_same_point(world, v[0], v[1]) ||
-           is_same_point(world, v[1], v[2]) || is_same_point(world, v[2], v[0]);
-}
 
 /* Box of the world, exact. */
 typedef struct {
@@ -77,7 +62,8 @@ static void fit_box(grid_t *grid, const world_t *world)
 
     memset(&extent, 0, sizeof extent);
     for (size_t f = 0; f < world->face_count; f++) {
-        if (!is_flat(world, world->faces + f)) {
+        /* such a face must not widen the box */
+        if (!world_is_flat(world, world->faces + f)) {
             extend_by_face(&extent, world, world->faces + f);
         }
     }
@@ -244,6 +230,17 @@ static void round_sphere(grid_t *grid, const world_t *world, uint32_t index)
     append_face(grid, &face);
 }
 
+/* Has a face an area as it is written, but for the rounding of 64 bits? */
+static bool has_area_as_written(const world_t *world, const world_face_t *face)
+{
+    const soft_vec_t p = soft_vec_from(world->vertices[face->vertex[0]]);
+    const soft_vec_t q = soft_vec_from(world->vertices[face->vertex[1]]);
+    const soft_vec_t r = soft_vec_from(world->vertices[face->vertex[2]]);
+    const soft_vec_t n = soft_vec_cross(soft_vec_sub(q, p), soft_vec_sub(r, p));
+
+    return soft_vec_dot(n, n).m != 0;
+}
+
 static void round_faces(grid_t *grid, const world_t *world)
 {
     uint32_t *rounded = cli_alloc(world->vertex_count, sizeof *rounded);
@@ -256,7 +253,7 @@ static void round_faces(grid_t *grid, const world_t *world)
         const world_face_t *from = world->faces + f;
         grid_face_t face;
 
-        if (is_flat(world, from)) {
+        if (world_is_flat(world, from)) {
             grid->flat_count++;
             continue;
         }
@@ -273,7 +270,11 @@ static void round_faces(grid_t *grid, const world_t *world)
             face.vertex[i] = rounded[v];
         }
         if (!has_area(grid, &face)) {
-            grid->tiny_count++;
+            if (has_area_as_written(world, from)) {
+                grid->tiny_count++;
+            } else {
+                grid->flat_count++;
+            }
         } else if (is_double(&known, grid, &face)) {
             grid->double_count++;
         } else {

@@ -540,6 +540,7 @@ void read_obj(world_t *world, const char *path)
     reader.first_vertex = world->vertex_count;
     reader.first_normal = world->normal_count;
     reader.first_face = world->face_count;
+    world_add_mesh(world, path);
     reader.first_material = world->material_count;
     reader.index_max = -1;
     add_used(&reader, "(none)");

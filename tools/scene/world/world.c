@@ -49,6 +49,14 @@ size_t world_add_material(world_t *world, const char *name, size_t name_length)
     return world->material_count++;
 }
 
+void world_add_mesh(world_t *world, const char *path)
+{
+    world->meshes = alloc_grow(world->meshes, world->mesh_count,
+            &world->mesh_capacity, sizeof *world->meshes);
+    world->meshes[world->mesh_count].path = alloc_text(path, strlen(path));
+    world->meshes[world->mesh_count++].first_face = world->face_count;
+}
+
 void world_add_face(world_t *world, const world_face_t *face)
 {
     world->faces = alloc_grow(world->faces, world->face_count,
@@ -72,6 +80,21 @@ world_table_t *world_add_table(world_t *world)
     return world->tables + world->table_count++;
 }
 
+static bool is_same_point(const world_t *world, uint32_t a, uint32_t b)
+{
+    const double *p = world->vertices[a], *q = world->vertices[b];
+
+    return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+}
+
+bool world_is_flat(const world_t *world, const world_face_t *face)
+{
+    const uint32_t *v = face->vertex;
+
+    return is_same_point(world, v[0], v[1]) ||
+           is_same_point(world, v[1], v[2]) || is_same_point(world, v[2], v[0]);
+}
+
 void world_free(world_t *world)
 {
     for (size_t i = 0; i < world->sphere_count; i++) {
@@ -79,6 +102,9 @@ void world_free(world_t *world)
     }
     for (size_t i = 0; i < world->table_count; i++) {
         free(world->tables[i].weights);
+    }
+    for (size_t i = 0; i < world->mesh_count; i++) {
+        free(world->meshes[i].path);
     }
     for (size_t i = 0; i < world->material_count; i++) {
         free(world->materials[i].name);
@@ -90,5 +116,6 @@ void world_free(world_t *world)
     free(world->normals);
     free(world->faces);
     free(world->materials);
+    free(world->meshes);
     memset(world, 0, sizeof *world);
 }

@@ -27,6 +27,12 @@ typedef struct {
     uint32_t normal[3]; /* 1 + index of each corner's; 0: none */
 } world_face_t;
 
+/* Its faces go to the first one of the next mesh. */
+typedef struct {
+    char *path;
+    size_t first_face;
+} world_mesh_t;
+
 typedef struct {
     double centre[3];
     double radius; /* above 0 */
@@ -69,12 +75,14 @@ typedef struct {
     double (*vertices)[3];
     double (*normals)[3]; /* any length; 0 stands for none */
     world_face_t *faces;
+    world_mesh_t *meshes;
     world_material_t *materials;
     world_sphere_t *spheres;
     world_table_t *tables;
     size_t vertex_count, vertex_capacity;
     size_t normal_count, normal_capacity;
     size_t face_count, face_capacity;
+    size_t mesh_count, mesh_capacity;
     size_t material_count, material_capacity;
     size_t sphere_count, sphere_capacity;
     size_t table_count, table_capacity;
@@ -90,9 +98,13 @@ typedef struct {
 size_t world_add_vertex(world_t *world, const double position[3]);
 size_t world_add_material(world_t *world, const char *name, size_t name_length);
 size_t world_add_normal(world_t *world, const double normal[3]);
+void world_add_mesh(world_t *world, const char *path);
 void world_add_face(world_t *world, const world_face_t *face);
 world_sphere_t *world_add_sphere(world_t *world); /* all zero; until the next */
 world_table_t *world_add_table(world_t *world);
+
+/* Are two corners of a face in one place? */
+bool world_is_flat(const world_t *world, const world_face_t *face);
 
 /* Free everything; the world is empty again. */
 void world_free(world_t *world);
