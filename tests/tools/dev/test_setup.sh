@@ -205,7 +205,8 @@ unused=$(for program in $trials; do
     [ "$program" = riscv64-unknown-elf-gcc ] && program=riscv64-unknown-elf-
     [ "$program" = arm-none-eabi-gcc ] && program=arm-none-eabi-
     [ "$program" = avr-gcc ] && program=avr-
-    grep -rqwe "$program" tests hal --include='*.sh' --include='*.mk' ||
+    grep -rqwe "$program" tests hal --include='*.sh' --include='*.mk' \
+        --include=builds.txt ||
         echo "$program"
 done)
 say_none every_program_asked_for_is_called_by_a_test "$unused"
