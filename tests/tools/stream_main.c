@@ -3,11 +3,13 @@
 
 /* usage: stream FORMAT WIDTH HEIGHT [status N] [flip BYTE] [cut BYTE]
  *               [drop LINE] [twice LINE] [noise] [ticks N] [hz N] [beyond Y]
- *               > stream
+ *               [shade N] [seed N] [paths N] [error N] > stream
  * The picture is red = x, green = y, blue = x ^ y in RGB888; in other formats
- * byte i of line y is 16 y + i. flip inverts a byte of the stream, cut ends it
- * before one, noise puts half frames and false marks between frames, beyond
- * sends a line of a number that the picture does not have. */
+ * byte i of line y is 16 y + i; shade adds N to each. The paths are those of
+ * its pixels unless told; error N says that pixels end by themselves. flip
+ * inverts a byte of the stream, cut ends it before one, noise puts half frames
+ * and false marks between frames, beyond sends a line of a number that the
+ * picture does not have. */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,6 +19,7 @@
 
 static uint8_t stream[1 << 20];
 static size_t stream_size;
+static unsigned shade;
 
 static void append(const uint8_t *bytes, size_t size)
 {
@@ -42,8 +45,8 @@ static void append_line(
         const unsigned x = i / 3;
         const unsigned rgb[3] = {x, y, x ^ y};
         frame[QL_STREAM_PIXELS + i] =
-                (uint8_t)(format == QL_FORMAT_RGB888 ? rgb[i % 3]
-                                                     : 16u * y + i);
+                (uint8_t)(shade + (format == QL_FORMAT_RGB888 ? rgb[i % 3]
+                                                              : 16u * y + i));
     }
     append(frame, ql_stream_line(frame, y, size));
 }
@@ -52,7 +55,8 @@ int main(int argc, char **argv)
 {
     static uint8_t frame[QL_STREAM_FRAME_BYTES(UINT16_MAX)];
     ql_settings_t settings = QL_SETTINGS_DEFAULT;
-    ql_stream_end_t end = {QL_OK, {7, 6, 5, 4, 3}, 3000, 1000000};
+    ql_stream_end_t end = {QL_OK, {0, 6, 5, 4, 3}, 3000, 1000000};
+    uint32_t paths = 0;
     long flip = -1, cut = -1, drop = -1, twice = -1, beyond = -1;
     bool noise = false;
     ql_format_t format;
@@ -73,9 +77,19 @@ int main(int argc, char **argv)
         noise = strcmp(argv[i], "noise") == 0 || noise;
         end.ticks = strcmp(argv[i], "ticks") == 0 ? (uint32_t)n : end.ticks;
         end.tick_hz = strcmp(argv[i], "hz") == 0 ? (uint32_t)n : end.tick_hz;
+        shade = strcmp(argv[i], "shade") == 0 ? (unsigned)n : shade;
+        paths = strcmp(argv[i], "paths") == 0 ? (uint32_t)n : paths;
+        settings.seed =
+                strcmp(argv[i], "seed") == 0 ? (uint32_t)n : settings.seed;
+        settings.error_q16 = strcmp(argv[i], "error") == 0 ? (uint16_t)n
+                                                           : settings.error_q16;
         end.status =
                 strcmp(argv[i], "status") == 0 ? (ql_status_t)n : end.status;
     }
+
+    end.diag.paths = paths != 0 ? paths
+                                : (uint32_t)settings.width * settings.height *
+                                          settings.spp;
 
     append(frame, ql_stream_head(frame, &settings, format));
     for (uint16_t y = 0; y < settings.height; y++) {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# test_recv.sh - qlux-recv gives the exact picture, or none and a reason
+# test_recv.sh - qlux-recv gives every good line, and a reason for each other
 # SPDX-License-Identifier: MIT
 
 recv=${1:-${BUILD:-build}/qlux-recv}
@@ -22,20 +22,38 @@ trap 'rm -rf "$dir"' EXIT
 suite=tools/test_recv
 . tests/support/claims.sh
 
-# receive WANTED-STATUS: of $dir/s; output in $dir/o.ppm, $dir/out and $dir/err.
+# receive WANTED-STATUS [OPTION]: of $dir/s; output in $dir/o.ppm, $dir/out and
+# $dir/err, no temporary file.
 receive() {
     rm -f "$dir/o.ppm"
-    "$recv" "$dir/s" -o "$dir/o.ppm" --stats --quiet \
+    # shellcheck disable=SC2086 # an option or none
+    "$recv" "$dir/s" -o "$dir/o.ppm" --stats --quiet ${2-} \
         >"$dir/out" 2>"$dir/err"
     got=$?
     [ "$got" -eq "$1" ] || {
         echo "status $got, wanted $1: $(cat "$dir/err")" >&2
         return 1
     }
-    # A failure leaves nothing: no picture, no temporary file.
-    [ "$1" -eq 0 ] || [ "$(ls "$dir" | tr '\n' ' ')" = "$left" ]
+    [ "$(ls "$dir" | grep -c tmp)" -eq 0 ]
 }
-left='err out s want.ppm '
+# refused: no picture at all
+refused() { receive 2 && [ ! -e "$dir/o.ppm" ]; }
+# gaps VALUE LINE...: the picture, with each byte of these lines this value
+gaps() {
+    value=$1
+    shift
+    cp "$dir/want.ppm" "$dir/gaps"
+    for y in "$@"; do
+        { head -c $((11 + 15 * y)) "$dir/gaps"
+          head -c 15 /dev/zero | tr '\0' "\\$value"
+          tail -c +$((11 + 15 * y + 16)) "$dir/gaps"; } >"$dir/more" &&
+            mv "$dir/more" "$dir/gaps"
+    done
+    cmp "$dir/gaps" "$dir/o.ppm"
+    same=$?
+    rm "$dir/gaps"
+    return $same
+}
 
 # What stream_main.c says: red = x, green = y, blue = x ^ y.
 {
@@ -81,6 +99,17 @@ say line_sent_twice_is_harmless $?
 "$stream" 0 5 4 drop 2 >"$dir/s"
 receive 2 && grep -q 'lines 2 are missing' "$dir/err"
 say missing_line_is_named $?
+gaps 0 2
+say missing_line_is_black $?
+receive 2 --partial && gaps 200 2 && figures_of=$(sed -n 's/^spp: //p' \
+    "$dir/out") && [ "$figures_of" = 16 ]
+say missing_line_is_grey_if_asked_for $?
+cp "$dir/s" "$dir/t"
+"$recv" "$dir/t" -o "$dir/o.png" --partial --quiet 2>"$dir/err"
+[ $? -eq 2 ] && "${recv%recv}diff" "$dir/o.png" "$dir/o.ppm" |
+    grep -qx 'identical: yes'
+say picture_with_gaps_is_a_png_too $?
+rm "$dir/o.png" "$dir/t"
 
 # Header 25, then lines of 26: a pixel of line 1 lies at 25 + 26 + 12.
 "$stream" 0 5 4 flip 63 >"$dir/s"
@@ -110,10 +139,51 @@ receive 0 && [ "$(grep board: "$dir/err" | tr '\n' ' ')" = \
     'board: b board: d ' ]
 say text_begins_again_after_what_is_none $?
 
-# A restarted board sends its header again: only the last picture counts.
+# A restarted board sends its header again: only the last picture counts, and
+# lines from before it if it is the same.
 { "$stream" 0 3 9 cut 60; "$stream" 0 5 4; } >"$dir/s"
-receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm"
+receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" &&
+    grep -q 'another header: 1 of 9 lines' "$dir/err"
 say second_header_begins_again $?
+{ "$stream" 0 5 4 shade 1 cut 80; "$stream" 0 5 4; } >"$dir/s"
+receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" &&
+    grep -q 'another header: 2 of 4 lines' "$dir/err"
+say same_header_with_another_picture_begins_again $?
+{ "$stream" 0 5 4 cut 103; "$stream" 0 5 4 drop 1; } >"$dir/s"
+receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm" &&
+    grep -qx 'duplicate-lines: 2' "$dir/out"
+say lines_from_before_a_restart_fill_its_gaps $?
+# None of those before came again: nothing says that they are the same picture.
+{ "$stream" 0 5 4 cut 51; "$stream" 0 5 4 drop 0; } >"$dir/s"
+receive 2 && gaps 0 0
+say lines_from_before_that_nothing_confirms_are_left_out $?
+{ "$stream" 0 5 4 cut 103; "$stream" 0 0 4; "$stream" 0 5 4 | tail -c +26
+} >"$dir/s"
+receive 2 && gaps 0 3
+say senseless_header_within_a_picture_is_left_out $?
+
+# ---- Two pictures in one stream
+
+# Another picture's lines, of which one comes twice; its header is lost.
+{ "$stream" 0 5 4 cut 103; "$stream" 0 5 4 shade 1 | tail -c +78; } >"$dir/s"
+refused && grep -q 'line 2 came twice and differs' "$dir/err"
+say line_that_comes_twice_and_differs_is_refused $?
+# Each header with its lines, one board beside the other.
+{ "$stream" 0 5 4 cut 25; "$stream" 0 5 4 shade 9 cut 51
+  "$stream" 0 5 4 | tail -c +26; } >"$dir/s"
+refused && grep -q 'line 0 came twice and differs' "$dir/err"
+say lines_of_two_boards_are_refused $?
+for paths in 319 321 640 7; do
+    "$stream" 0 5 4 paths $paths >"$dir/s"
+    refused && grep -q "counts $paths paths, but 5 x 4 .* have 320" "$dir/err"
+    say "end_of_a_picture_of_${paths}_paths_is_refused" $?
+done
+"$stream" 0 5 4 error 99 paths 319 >"$dir/s"
+receive 0 && cmp "$dir/o.ppm" "$dir/want.ppm"
+say fewer_paths_are_right_if_pixels_end_by_themselves $?
+"$stream" 0 5 4 error 99 paths 321 >"$dir/s"
+refused
+say more_paths_never_are $?
 
 # ---- Every figure, as the stream has it
 
@@ -125,7 +195,7 @@ height: 4
 spp: 16
 seed: 0
 status: 0
-paths: 7
+paths: 320
 closest-rays: 6
 shadow-rays: 5
 saturated: 4
@@ -174,7 +244,7 @@ for head in '0 0 4' '0 4 0' '0 16385 1' '0 1 16385' '5 4 4'; do
     # shellcheck disable=SC2086 # three arguments
     "$stream" $head >"$dir/s"
     # shellcheck disable=SC2086
-    receive 2 && [ "$(cat "$dir/err")" = "qlux-recv: header: $(set -- $head
+    refused && [ "$(cat "$dir/err")" = "qlux-recv: header: $(set -- $head
         echo "$2 x $3 pixels of format $1"): expected sides of 1 to 16384 and \
 a format below 5" ]
     say "header_$(echo "$head" | tr ' ' _)_is_refused" $?
@@ -222,11 +292,19 @@ for name in o.pfm o.jpg o; do
     say "${name}_is_refused" $?
 done
 
+# Header 25, four lines of 26, end 41: a damaged header leaves nothing, and a
+# damaged line the others.
 bad=0
 i=0
 while [ "$i" -lt "$size" ]; do
     "$stream" 0 5 4 flip "$i" >"$dir/s"
-    receive 2 || bad=1
+    if [ "$i" -lt 25 ]; then
+        refused
+    elif [ "$i" -lt 129 ]; then
+        receive 2 && gaps 0 $(((i - 25) / 26))
+    else
+        receive 2 && gaps 0
+    fi || bad=1
     i=$((i + 1))
 done
 say "byte_flipped_at_any_of_${size}_places_is_noticed" $bad
@@ -235,7 +313,12 @@ bad=0
 i=0
 while [ "$i" -lt "$size" ]; do
     "$stream" 0 5 4 cut "$i" >"$dir/s"
-    receive 2 || bad=1
+    # shellcheck disable=SC2046 # lines that are not whole
+    if [ "$i" -lt 51 ]; then
+        refused
+    else
+        receive 2 && gaps 0 $(seq $(((i - 25) / 26)) 3)
+    fi || bad=1
     i=$((i + 1))
 done
 say "stream_cut_at_any_of_${size}_places_is_noticed" $bad
@@ -252,9 +335,22 @@ for signal in INT TERM; do
     wait $child
     code=$?
     exec 3>&-
+    [ $code -eq 3 ] && grep -q ': interrupted; 1 of 4 lines were written$' \
+        "$dir/err" && grep -q '^lines 1-3 are missing$' "$dir/err" &&
+        mv "$dir/stop.ppm" "$dir/o.ppm" && gaps 0 1 2 3 &&
+        [ "$(ls "$dir" | grep -c tmp)" -eq 0 ]
+    say "stopped_by_${signal}_exits_3_and_writes_what_is_there" $?
+    "$recv" "$dir/fifo" -o "$dir/stop.ppm" --quiet 2>"$dir/err" &
+    child=$!
+    exec 3>"$dir/fifo"
+    head -c 50 "$dir/s" >&3
+    kill -$signal $child
+    wait $child
+    code=$?
+    exec 3>&-
     [ $code -eq 3 ] && grep -q 'interrupted; nothing was written' "$dir/err" &&
         [ "$(ls "$dir" | grep -c -e stop -e tmp)" -eq 0 ]
-    say "stopped_by_${signal}_exits_3_and_writes_nothing" $?
+    say "stopped_by_${signal}_before_a_line_it_writes_nothing" $?
 done
 rm "$dir/fifo"
 
@@ -264,5 +360,11 @@ say missing_device_exits_3 $?
 "$recv" "$dir/s" -o "$dir/none/o.ppm" --quiet 2>/dev/null
 [ $? -eq 3 ]
 say unwritable_output_exits_3 $?
+{ "$recv" - -o "$dir/none/o.ppm" --quiet 2>/dev/null; cat; } <"$dir/s" |
+    cmp - "$dir/s"
+say unwritable_output_is_known_before_a_byte_is_read $?
+"$recv" - -o - --quiet --stats <"$dir/s" 2>"$dir/err" | cmp - "$dir/want.ppm" &&
+    grep -qx 'spp: 16' "$dir/err"
+say stdout_holds_the_picture_and_nothing_else $?
 
 exit $((failures > 0))

@@ -131,15 +131,6 @@ static void compare(numbers_t *out, const image_t *a, const image_t *b)
     out->max = out->rmse == out->rmse ? out->max : out->rmse;
 }
 
-static void write_picture(const image_t *page, const char *path)
-{
-    cli_out_t out;
-
-    cli_out_open(&out, path);
-    image_write(page, image_kind(path), &out);
-    cli_out_commit(&out);
-}
-
 int main(int argc, char **argv)
 {
     options_t o = {
@@ -147,6 +138,7 @@ int main(int argc, char **argv)
     image_t a, b, page;
     numbers_t n;
     diff_shown_t shown;
+    cli_out_t out;
     bool above;
 
     options_parse(&program, argc, argv, &o);
@@ -164,6 +156,7 @@ int main(int argc, char **argv)
     }
     compare(&n, &a, &b);
     if (o.picture != NULL) { /* before it says anything: this may fail */
+        cli_out_open(&out, o.picture);
         shown = diff_picture(&page, &a, &b, &o.style);
     }
     printf("identical: %s\nrmse: %.9g\nrelmse: %.9g\nbias: %.9g\n"
@@ -173,7 +166,8 @@ int main(int argc, char **argv)
     if (o.picture != NULL) {
         printf("scale: %.9g\nclipped: %lu\nundefined: %lu\n", shown.scale,
                 (unsigned long)shown.clipped, (unsigned long)shown.undefined);
-        write_picture(&page, o.picture);
+        image_write(&page, image_kind(o.picture), &out);
+        cli_out_commit(&out);
         image_free(&page);
     }
     image_free(&a);

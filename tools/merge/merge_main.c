@@ -7,6 +7,7 @@
 
 #include "lib/program/options.h"
 #include "lib/render/develop.h"
+#include "merge/fields.h"
 
 typedef struct {
     const char *picture;
@@ -62,12 +63,12 @@ static void check_fit(const sums_t *whole, const sums_t *part,
         const option_list_t *parts, unsigned i)
 {
     const unsigned field = sums_compare(whole, part);
+    char text[2][FIELDS_TEXT_BYTES];
 
     if (field != SUMS_FIELD_COUNT) {
-        cli_fail(CLI_INPUT, "%s: its %s is %" PRId64 ", but %" PRId64 " in %s",
-                parts->items[i], sums_field_name(field),
-                sums_field_value(part, field), sums_field_value(whole, field),
-                parts->items[0]);
+        cli_fail(CLI_INPUT, "%s: its %s is %s, but %s in %s", parts->items[i],
+                fields_name(field), fields_text(text[0], part, field),
+                fields_text(text[1], whole, field), parts->items[0]);
     }
 }
 

@@ -21,7 +21,7 @@
 typedef struct {
     const char *from, *to;
     uint32_t baud;
-    bool stats, quiet;
+    bool partial, stats, quiet;
 } options_t;
 
 #define AT(field) OPTION_FIELD(options_t, field)
@@ -32,8 +32,9 @@ static const option_t options[] = {
         {"DEVICE-or-FILE", OPTION_TEXT, AT(from), .required = true,
                 .help = "a serial device, a FIFO, a file, or - for stdin"},
         {"-o FILE", OPTION_FILE, AT(to), .words = pictures, .required = true,
-                .help = ".ppm or .png, written only if every line arrived "
-                        "intact"},
+                .help = ".ppm or .png; lines that did not arrive intact are "
+                        "black"},
+        {"--partial", OPTION_FLAG, AT(partial), .help = "they are grey"},
         {"--baud N", OPTION_NUMBER, AT(baud), .min = 1, .max = INT32_MAX,
                 .help = "of a serial device"},
         {"--stats", OPTION_FLAG, AT(stats),
@@ -50,9 +51,13 @@ static const program_t program = {.name = "qlux-recv",
         .sections = sections,
         .notes = "Bytes between frames are skipped; text lines among them that "
                  "begin with \"qlux:\" are shown. A board sends what its "
-                 "display shows, so there is no .pfm. Under QEMU's -icount "
-                 "shift=0 one of the nanoseconds that --stats prints is one "
-                 "instruction.",
+                 "display shows, so there is no .pfm. Whatever arrived is "
+                 "written, and the exit code is 0 if that is all of it: 2 if "
+                 "lines or the last frame are missing, 3 after Ctrl-C. Lines "
+                 "of two pictures in one stream are refused. Under QEMU's "
+                 "-icount shift=0 one of the nanoseconds that --stats prints "
+                 "is one instruction.",
+        .exits = "2 if the picture is not whole",
         .example = "qlux-recv /dev/ttyACM0 -o picture.png --stats"};
 
 /* Room for the longest frame twice, so that one is always whole in it. */
@@ -62,6 +67,7 @@ typedef struct {
     int fd;
     const char *path;
     bool ended;
+    int error; /* why reading ended early: an errno, EINTR after Ctrl-C; or 0 */
     uint8_t bytes[BUFFER_BYTES];
     size_t begin, end; /* what is read and not yet used */
     char text[80];     /* a line among the skipped bytes */
@@ -69,16 +75,24 @@ typedef struct {
     uint64_t skipped; /* bytes that belong to no frame */
 } input_t;
 
-enum { LINE_MISSING, LINE_BAD, LINE_GOOD };
+/* What is known of a line. A board that begins again with the same header sends
+ * the same picture: good lines from before it count until one differs. */
+enum { LINE_MISSING, LINE_BAD, LINE_OLD, LINE_GOOD };
+
+#define GREY 128u /* of a line that is not there */
 
 typedef struct {
     uint16_t width, height; /* 0 until the header arrives */
     ql_format_t format;
+    uint8_t head[QL_STREAM_HEAD_BYTES];
     uint32_t spp, seed;
+    bool adaptive; /* its pixels end by themselves */
     size_t line_bytes;
-    image_t image;  /* as bytes */
-    uint8_t *lines; /* LINE_ of each */
-    uint32_t good, duplicates, bad_frames;
+    image_t image;           /* as bytes */
+    uint8_t *lines;          /* LINE_ of each */
+    uint32_t good;           /* lines, the old ones too */
+    uint32_t old, confirmed; /* lines from before the header; come again */
+    uint32_t duplicates, bad_frames;
     bool ended;
     uint32_t end[QL_STREAM_END_BYTES / 4];
 } picture_t;
@@ -120,29 +134,38 @@ static void set_up_tty(int fd, uint32_t baud)
             (unsigned long)baud);
 }
 
+static const char *reason(int error)
+{
+    return error == EINTR ? "interrupted; nothing was written"
+                          : strerror(error);
+}
+
 static void open_input(input_t *in, const char *path, uint32_t baud)
 {
     memset(in, 0, sizeof *in);
     in->path = path;
     in->fd = strcmp(path, "-") == 0 ? 0 : open(path, O_RDONLY | O_NOCTTY);
     if (in->fd < 0) {
-        cli_fail(CLI_IO, "%s: %s", path, strerror(errno));
+        cli_fail(CLI_IO, "%s: %s", path, reason(errno));
     }
     if (isatty(in->fd)) {
         set_up_tty(in->fd, baud);
     }
 }
 
-/* Wait for more bytes, at most half a second. False: none came. */
+/* Wait for more bytes, at most half a second. False: none came. After Ctrl-C
+ * only what came already is taken. */
 static bool read_more(input_t *in)
 {
     struct pollfd wait = {in->fd, POLLIN, 0};
+    const bool stopped = cli_interrupted();
     ssize_t n;
 
-    if (cli_interrupted()) {
-        cli_fail(CLI_IO, "%s: interrupted; nothing was written", in->path);
+    if (stopped) {
+        in->error = EINTR;
+        in->ended = true;
     }
-    if (poll(&wait, 1, 500) <= 0) {
+    if (poll(&wait, 1, stopped ? 0 : 500) <= 0) {
         return false;
     }
     memmove(in->bytes, in->bytes + in->begin, in->end - in->begin);
@@ -150,9 +173,9 @@ static bool read_more(input_t *in)
     in->begin = 0;
     n = read(in->fd, in->bytes + in->end, BUFFER_BYTES - in->end);
     if (n < 0 && errno != EINTR && errno != EAGAIN) {
-        cli_fail(CLI_IO, "%s: %s", in->path, strerror(errno));
+        in->error = errno;
     }
-    in->ended = n == 0;
+    in->ended = n == 0 || in->error != 0;
     in->end += n > 0 ? (size_t)n : 0;
     return n > 0;
 }
@@ -240,46 +263,111 @@ static void skip_to_whole_frame(input_t *in, const picture_t *picture)
 
 /* ---- the picture -------------------------------------------------------- */
 
-static void begin_picture(picture_t *picture, const uint8_t *payload)
+static bool is_head(const uint8_t *payload)
 {
     const uint16_t width = bytes_get_le16(payload),
                    height = bytes_get_le16(payload + 2);
 
+    return width != 0 && width <= QL_IMAGE_MAX && height != 0 &&
+           height <= QL_IMAGE_MAX && payload[4] < QL_FORMAT_COUNT;
+}
+
+static void begin_picture(picture_t *picture, const uint8_t *payload)
+{
+    if (picture->good > 0) {
+        cli_warn("another header: %lu of %u lines before it are left out",
+                (unsigned long)picture->good, picture->height);
+    }
     image_free(&picture->image);
     free(picture->lines);
     memset(picture, 0, sizeof *picture);
-    if (width == 0 || width > QL_IMAGE_MAX || height == 0 ||
-            height > QL_IMAGE_MAX || payload[4] >= QL_FORMAT_COUNT) {
+    memcpy(picture->head, payload, sizeof picture->head);
+    picture->width = bytes_get_le16(payload);
+    picture->height = bytes_get_le16(payload + 2);
+    picture->format = (ql_format_t)payload[4];
+    picture->adaptive = payload[5] != 0;
+    picture->spp = bytes_get_le32(payload + 8);
+    picture->seed = bytes_get_le32(payload + 12);
+    picture->line_bytes = QL_LINE_BYTES(picture->width, picture->format);
+    image_new_bytes(&picture->image, picture->width, picture->height);
+    picture->lines = cli_alloc(picture->height, 1);
+}
+
+static void take_head(picture_t *picture, const uint8_t *payload)
+{
+    if (!is_head(payload) && picture->height == 0) {
         cli_fail(CLI_INPUT,
                 "header: %u x %u pixels of format %u: expected sides of 1 to "
                 "%u and a format below %u",
-                width, height, payload[4], QL_IMAGE_MAX, QL_FORMAT_COUNT);
+                bytes_get_le16(payload), bytes_get_le16(payload + 2),
+                payload[4], QL_IMAGE_MAX, QL_FORMAT_COUNT);
     }
-    picture->width = width;
-    picture->height = height;
-    picture->format = (ql_format_t)payload[4];
-    picture->spp = bytes_get_le32(payload + 8);
-    picture->seed = bytes_get_le32(payload + 12);
-    picture->line_bytes = QL_LINE_BYTES(width, picture->format);
-    image_new_bytes(&picture->image, width, height);
-    picture->lines = cli_alloc(height, 1);
+    if (!is_head(payload)) {
+        picture->bad_frames++;
+    } else if (memcmp(payload, picture->head, sizeof picture->head) != 0) {
+        begin_picture(picture, payload);
+    } else {
+        for (unsigned y = 0; y < picture->height; y++) {
+            if (picture->lines[y] == LINE_GOOD) {
+                picture->lines[y] = LINE_OLD;
+            }
+        }
+        picture->old = picture->good;
+        picture->confirmed = 0;
+    }
+}
+
+/* The lines from before a header are of another picture: nothing is theirs. */
+static void drop_old_lines(picture_t *picture)
+{
+    const size_t bytes = 3 * (size_t)picture->width;
+    uint32_t dropped = 0;
+
+    for (unsigned y = 0; y < picture->height; y++) {
+        if (picture->lines[y] == LINE_OLD) {
+            picture->lines[y] = LINE_MISSING;
+            memset(picture->image.bytes + bytes * y, 0, bytes);
+            dropped++;
+        }
+    }
+    picture->good -= dropped;
+    picture->old = 0;
+    if (dropped > 0) {
+        cli_warn("another header: %lu of %u lines before it are left out",
+                (unsigned long)dropped, picture->height);
+    }
 }
 
 static void take_line(picture_t *picture, const uint8_t *payload)
 {
     const uint16_t y = bytes_get_le16(payload);
+    const size_t bytes = 3 * (size_t)picture->width;
+    uint8_t *row, *fresh;
+    bool same;
 
     if (y >= picture->height) {
         picture->bad_frames++;
         return;
     }
-    widen_line(picture->image.bytes + 3 * (size_t)y * picture->width,
-            payload + QL_STREAM_LINE_PREFIX, picture->format, picture->width);
-    if (picture->lines[y] == LINE_GOOD) {
-        picture->duplicates++;
-    } else {
-        picture->good++;
+    row = picture->image.bytes + bytes * y;
+    fresh = cli_alloc(bytes, 1);
+    widen_line(fresh, payload + QL_STREAM_LINE_PREFIX, picture->format,
+            picture->width);
+    same = memcmp(fresh, row, bytes) == 0;
+    if (picture->lines[y] == LINE_OLD && !same && picture->confirmed == 0) {
+        drop_old_lines(picture);
     }
+    if (picture->lines[y] >= LINE_OLD && !same) {
+        cli_fail(CLI_INPUT,
+                "line %u came twice and differs: the stream has lines of two "
+                "pictures; nothing was written",
+                y);
+    }
+    memcpy(row, fresh, bytes);
+    free(fresh);
+    picture->confirmed += picture->lines[y] == LINE_OLD;
+    picture->duplicates += picture->lines[y] >= LINE_OLD;
+    picture->good += picture->lines[y] < LINE_OLD;
     picture->lines[y] = LINE_GOOD;
 }
 
@@ -289,7 +377,7 @@ static void take_frame(picture_t *picture, const uint8_t *frame)
 
     switch (frame[2]) {
     case QL_STREAM_HEAD:
-        begin_picture(picture, payload);
+        take_head(picture, payload);
         break;
     case QL_STREAM_LINE:
         take_line(picture, payload);
@@ -373,28 +461,77 @@ static void list_lines(const picture_t *picture, int state, const char *what)
     }
 }
 
-/* Everything arrived and the board says it is done; or does not return. */
-static void check_complete(const picture_t *picture, const char *path)
+/* The board counts its paths; one that was stopped, or has no counters, says
+ * nothing. Its pixels have spp of them, or fewer if they end by themselves. */
+static void check_paths(const picture_t *picture, const char *path)
+{
+    const uint32_t paths = picture->end[1];
+    /* < 2^53; the board's counter goes round at 2^32 */
+    const uint64_t all =
+            (uint64_t)picture->width * picture->height * picture->spp;
+    const bool fewer = picture->adaptive && (all > UINT32_MAX || paths < all);
+
+    if (picture->ended && picture->end[0] == QL_OK && paths != 0 &&
+            paths != (uint32_t)all && !fewer) {
+        cli_fail(CLI_INPUT,
+                "%s: the last frame counts %lu paths, but %u x %u pixels of "
+                "%lu samples have %llu: the stream has parts of two pictures; "
+                "nothing was written",
+                path, (unsigned long)paths, picture->width, picture->height,
+                (unsigned long)picture->spp, (unsigned long long)all);
+    }
+}
+
+/* Refuse what is no picture, or not one. */
+static void check_picture(picture_t *picture, const input_t *in)
 {
     const int32_t status = ql_i32(picture->end[0]);
 
-    if (picture->height > 0 && picture->good < picture->height) {
-        list_lines(picture, LINE_BAD, "have a wrong CRC");
-        list_lines(picture, LINE_MISSING, "are missing");
+    if (picture->old > 0 && picture->confirmed == 0) {
+        drop_old_lines(picture);
+    }
+    if (picture->height > 0) {
+        check_paths(picture, in->path);
+    }
+    if (picture->good > 0) {
+        return;
+    }
+    if (in->error != 0) {
+        cli_fail(CLI_IO, "%s: %s", in->path, reason(in->error));
     }
     if (picture->ended && status != QL_OK) {
-        cli_fail(CLI_INPUT, "%s: the board stopped with status %ld: %s", path,
-                (long)status, ql_status_text((ql_status_t)status));
+        cli_fail(CLI_INPUT, "%s: the board stopped with status %ld: %s",
+                in->path, (long)status, ql_status_text((ql_status_t)status));
     }
     if (picture->height == 0) {
-        cli_fail(CLI_INPUT, "%s: no picture header found", path);
+        cli_fail(CLI_INPUT, "%s: no picture header found", in->path);
+    }
+    cli_fail(CLI_INPUT, "%s: none of %u lines arrived; nothing was written",
+            in->path, picture->height);
+}
+
+/* Say what is missing of a picture that was written; return if nothing is. */
+static void report_gaps(const picture_t *picture, const input_t *in)
+{
+    const int32_t status = ql_i32(picture->end[0]);
+
+    list_lines(picture, LINE_BAD, "have a wrong CRC");
+    list_lines(picture, LINE_MISSING, "are missing");
+    if (picture->ended && status != QL_OK) {
+        cli_fail(CLI_INPUT, "%s: the board stopped with status %ld: %s",
+                in->path, (long)status, ql_status_text((ql_status_t)status));
+    }
+    if (in->error != 0) {
+        cli_fail(CLI_IO, "%s: %s; %lu of %u lines were written", in->path,
+                in->error == EINTR ? "interrupted" : strerror(in->error),
+                (unsigned long)picture->good, picture->height);
     }
     if (picture->good < picture->height) {
-        cli_fail(CLI_INPUT, "%s: %lu of %u lines arrived", path,
+        cli_fail(CLI_INPUT, "%s: %lu of %u lines arrived", in->path,
                 (unsigned long)picture->good, picture->height);
     }
     if (!picture->ended) {
-        cli_fail(CLI_INPUT, "%s: ends without the end frame", path);
+        cli_fail(CLI_INPUT, "%s: ends without the end frame", in->path);
     }
 }
 
@@ -419,29 +556,42 @@ static void print_stats(const picture_t *picture, const input_t *in)
             (unsigned long long)in->skipped);
 }
 
-static void write_picture(const picture_t *picture, const char *path)
+static void make_gaps_grey(picture_t *picture)
 {
-    cli_out_t out;
+    const size_t bytes = 3 * (size_t)picture->width;
 
-    cli_out_open(&out, path);
-    image_write(&picture->image, image_kind(path), &out);
-    cli_out_commit(&out);
+    for (unsigned y = 0; y < picture->height; y++) {
+        if (picture->lines[y] < LINE_OLD) {
+            memset(picture->image.bytes + bytes * y, GREY, bytes);
+        }
+    }
 }
 
+/* Receive into an output that is open, so that what cannot be written is known
+ * before a board has sent for hours. */
 int main(int argc, char **argv)
 {
     static input_t in;
     static picture_t picture;
     options_t o = {.baud = 115200};
+    cli_out_t out;
 
     options_parse(&program, argc, argv, &o);
+    cli_out_open(&out, o.to);
+    cli_hold_signals();
     open_input(&in, o.from, o.baud);
     receive(&in, &picture, o.quiet);
-    check_complete(&picture, o.from);
-    write_picture(&picture, o.to);
+    (void)cli_release_signals(); /* one that came is in.error, or too late */
+    check_picture(&picture, &in);
+    if (o.partial) {
+        make_gaps_grey(&picture);
+    }
+    image_write(&picture.image, image_kind(o.to), &out);
+    cli_out_commit(&out);
     if (o.stats) {
         print_stats(&picture, &in);
     }
+    report_gaps(&picture, &in);
     image_free(&picture.image);
     free(picture.lines);
     return CLI_DONE;

@@ -97,6 +97,41 @@ high=$(od -An -v -tu4 -j 92 -N 144 -w8 whole.qls | awk '$2 > 0' | wc -l)
 [ "$high" -eq 18 ]
 say all_of_their_sums_are_beyond_32_bits $? "$high of 18"
 
+# ---- Parts of two pictures
+
+# differs CLAIM TEXT-OF-THE-SECOND PROGRAM OPTION...: against qlux-sim with mis
+one="--size 3x2 --spp 1 --quiet"
+"$sim" scene.qlb $one --direct mis --save-sums one.qls
+differs() {
+    claim=$1 text=$2 program=$3
+    shift 3
+    # shellcheck disable=SC2086
+    "$build/$program" scene.qlb $one "$@" --save-sums two.qls
+    "$merge" one.qls two.qls --save-sums no.qls 2>err.txt
+    [ $? -eq 2 ] && [ ! -e no.qls ] && [ "$(cat err.txt)" = "qlux-merge: \
+two.qls: its $text in one.qls" ]
+    say "$claim" $?
+}
+differs precisions_are_said_in_words 'precision is draft, but fine' \
+    qlux-sim-draft --direct mis
+differs strategies_are_said_in_words 'direct strategy is area, but mis' \
+    qlux-sim --direct area
+differs samplers_are_said_in_words 'sampler is random, but sobol' \
+    qlux-sim --direct mis --sampler random
+differs indirect_ways_are_said_in_words \
+    'indirect strategy is none, but brdf' qlux-sim --direct mis \
+    --indirect none
+differs choices_of_lights_are_said_in_words \
+    'choice of lights is all, but power' qlux-sim --direct mis --lights all
+differs roulette_is_said_in_words 'roulette is yes, but no' \
+    qlux-sim --direct mis --roulette
+differs seeds_are_numbers 'seed is 4294967295, but 0' \
+    qlux-sim --direct mis --seed 4294967295
+"$patch" one.qls 44 09000000 >two.qls
+expect words_that_there_are_not_are_numbers 2 \
+    'two.qls: its direct strategy is 9, but mis in one.qls' \
+    "$merge" one.qls two.qls --save-sums no.qls
+
 # ---- Damage
 
 # refuses CLAIM WHERE-AND-WHY: bad.qls, alone and as the second part

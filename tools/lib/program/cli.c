@@ -22,7 +22,10 @@
 #define READ_MAX  ((size_t)1 << 30) /* no input of ours is larger */
 #define READ_STEP ((size_t)1 << 16)
 
+enum { LINKS_MAX = 40, LINK_BYTES = 4096 };
+
 static const char *program_name = "qlux";
+static volatile sig_atomic_t holding; /* a signal only sets the next one */
 static volatile sig_atomic_t interrupted;
 static bool progress_open; /* the cursor stands behind a progress bar */
 
@@ -40,16 +43,30 @@ static void remove_temporaries(void)
     }
 }
 
-/* The first signal asks; programs look at cli_interrupted(). A second one, or
- * the first in a program that waits for something else, does not wait. */
+/* Async-signal-safe. Nothing can be said to a stderr that takes nothing. */
+static void say_interrupted(void)
+{
+    static const char text[] = ": interrupted\n";
+
+    if ((progress_open && write(STDERR_FILENO, "\n", 1) < 0) ||
+            write(STDERR_FILENO, program_name, strlen(program_name)) < 0 ||
+            write(STDERR_FILENO, text, sizeof text - 1) < 0) {
+        return;
+    }
+}
+
+/* A signal ends the program at once, whatever it computes or waits for. One
+ * that holds them is asked by the first and ended by the second. */
 static void on_signal(int number)
 {
     (void)number;
-    if (interrupted) {
-        remove_temporaries();
-        _exit(CLI_IO);
+    if (holding && !interrupted) {
+        interrupted = 1;
+        return;
     }
-    interrupted = 1;
+    remove_temporaries();
+    say_interrupted();
+    _exit(CLI_IO);
 }
 
 /* A full disk behind stdout is known only when it is flushed. */
@@ -98,9 +115,23 @@ void cli_below_progress(void)
     }
 }
 
+void cli_hold_signals(void)
+{
+    holding = 1;
+}
+
 bool cli_interrupted(void)
 {
     return interrupted != 0;
+}
+
+bool cli_release_signals(void)
+{
+    const bool stopped = interrupted != 0;
+
+    holding = 0;
+    interrupted = 0;
+    return stopped;
 }
 
 void cli_fail(int code, const char *format, ...)
@@ -160,8 +191,7 @@ static void *read_all(FILE *file, const char *path, size_t *size)
     }
     if (ferror(file)) {
         free(data);
-        cli_fail(CLI_IO, "cannot read %s: %s", path,
-                interrupted ? "interrupted" : strerror(errno));
+        cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
     }
     data[used] = '\0';
     *size = used;
@@ -170,10 +200,15 @@ static void *read_all(FILE *file, const char *path, size_t *size)
 
 void *cli_read(const char *path, size_t *size)
 {
+    static bool stdin_read;
     const bool is_stdin = strcmp(path, "-") == 0;
     FILE *file = is_stdin ? stdin : fopen(path, "rb");
     void *data;
 
+    if (is_stdin && stdin_read) {
+        cli_fail(CLI_USAGE, "'-' is given twice, but stdin is read once");
+    }
+    stdin_read = stdin_read || is_stdin;
     if (file == NULL) {
         cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
     }
@@ -184,11 +219,89 @@ void *cli_read(const char *path, size_t *size)
     return data;
 }
 
+/* The bytes of a name up to its last slash, that included. */
+static size_t folder_size(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+
+    return slash != NULL ? (size_t)(slash - path) + 1 : 0;
+}
+
+/* Size bytes of a name and then another, in new memory. */
+static char *join_names(const char *folder, size_t size, const char *name)
+{
+    char *path = cli_alloc(size + strlen(name) + 1, 1);
+
+    memcpy(path, folder, size);
+    strcpy(path + size, name);
+    return path;
+}
+
+/* The same file in a folder without links or dots, if there is that folder. */
+static char *resolve_folder(char *path)
+{
+    const size_t size = folder_size(path);
+    char *name = join_names(path, size, ".");
+    char *folder = realpath(name, NULL), *full = path;
+
+    free(name);
+    if (folder != NULL) {
+        name = join_names(folder, strlen(folder), "/");
+        full = join_names(name, strlen(name), path + size);
+        free(name);
+        free(folder);
+        free(path);
+    }
+    return full;
+}
+
+/* Where a name leads, through links to what is not there yet as well; NULL and
+ * errno if they go round. */
+static char *follow_links(const char *path)
+{
+    char *at = join_names(path, strlen(path), ""), *next;
+    char link[LINK_BYTES];
+
+    for (unsigned i = 0; i < LINKS_MAX; i++) {
+        const ssize_t n = readlink(at, link, sizeof link - 1);
+
+        if (n < 0) {
+            return resolve_folder(at);
+        }
+        link[n] = '\0';
+        next = join_names(at, link[0] == '/' ? 0 : folder_size(at), link);
+        free(at);
+        at = next;
+    }
+    free(at);
+    errno = ELOOP;
+    return NULL;
+}
+
+bool cli_same_output(const char *a, const char *b)
+{
+    struct stat info;
+    char *to_a, *to_b;
+    bool same;
+
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0) {
+        return strcmp(a, b) == 0;
+    }
+    if (stat(a, &info) == 0 && !S_ISREG(info.st_mode)) {
+        return false; /* a device or a pipe takes both */
+    }
+    to_a = follow_links(a);
+    to_b = follow_links(b);
+    same = to_a != NULL && to_b != NULL && strcmp(to_a, to_b) == 0;
+    free(to_a);
+    free(to_b);
+    return same;
+}
+
 /* Create a file of a new name in the folder of path. */
 static FILE *create_beside(const char *path, char **name)
 {
-    const char *slash = strrchr(path, '/');
-    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    const size_t folder = folder_size(path);
     const size_t room = folder + 64;
     int fd = -1;
 
@@ -205,43 +318,68 @@ static FILE *create_beside(const char *path, char **name)
     return fd >= 0 ? fdopen(fd, "wb") : NULL; /* fails for want of memory */
 }
 
+/* Create a temporary file and enter it, without a signal in between. */
+static void create_temporary(cli_out_t *out)
+{
+    sigset_t all, before;
+    int slot = 0;
+
+    while (slot < OUT_MAX - 1 && temporaries[slot] != NULL) {
+        slot++;
+    }
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &before);
+    out->file = create_beside(out->target, &out->temporary);
+    if (out->file != NULL) {
+        temporaries[slot] = out->temporary;
+    }
+    sigprocmask(SIG_SETMASK, &before, NULL);
+}
+
+/* stdout for the output alone: what else is printed goes to stderr. */
+static FILE *take_stdout(void)
+{
+    int fd;
+
+    fflush(stdout);
+    fd = dup(STDOUT_FILENO);
+    if (fd < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) {
+        return NULL;
+    }
+    return fdopen(fd, "wb");
+}
+
 void cli_out_open(cli_out_t *out, const char *path)
 {
     struct stat info;
     const bool exists = stat(path, &info) == 0;
-    int slot = 0;
 
     memset(out, 0, sizeof *out);
     out->path = path;
-    if (exists && !S_ISREG(info.st_mode)) {
+    if (strcmp(path, "-") == 0) {
+        out->path = "stdout";
+        out->file = take_stdout();
+    } else if (exists && !S_ISREG(info.st_mode)) {
         /* /dev/null, a pipe: written directly; renaming would replace it. */
         out->file = S_ISDIR(info.st_mode) ? NULL : fopen(path, "wb");
         errno = S_ISDIR(info.st_mode) ? EISDIR : errno;
-    } else if (exists && access(path, W_OK) != 0) {
-        out->file = NULL;
-    } else {
+    } else if (!exists || access(path, W_OK) == 0) {
         /* A symbolic link shall keep pointing at what is written. */
-        out->target = exists ? realpath(path, NULL) : NULL;
-        while (slot < OUT_MAX - 1 && temporaries[slot] != NULL) {
-            slot++;
+        out->target = follow_links(path);
+        if (out->target != NULL) {
+            create_temporary(out);
         }
-        out->file = create_beside(
-                out->target != NULL ? out->target : path, &out->temporary);
     }
     if (out->file == NULL) {
-        cli_fail(CLI_IO, "cannot write %s: %s", path, strerror(errno));
+        cli_fail(CLI_IO, "cannot write %s: %s", out->path, strerror(errno));
     }
-    if (out->temporary != NULL) {
-        temporaries[slot] = out->temporary;
-        if (exists) {
-            (void)fchmod(fileno(out->file), info.st_mode & 0777);
-        }
+    if (out->temporary != NULL && exists) {
+        (void)fchmod(fileno(out->file), info.st_mode & 0777);
     }
 }
 
 void cli_out_commit(cli_out_t *out)
 {
-    const char *target = out->target != NULL ? out->target : out->path;
     bool ok = ferror(out->file) == 0;
     int reason = ok ? 0 : errno;
 
@@ -249,10 +387,8 @@ void cli_out_commit(cli_out_t *out)
         ok = false;
         reason = errno;
     }
-    if (interrupted) {
-        cli_fail(CLI_IO, "interrupted; %s was not written", out->path);
-    }
-    if (ok && out->temporary != NULL && rename(out->temporary, target) != 0) {
+    if (ok && out->temporary != NULL &&
+            rename(out->temporary, out->target) != 0) {
         ok = false;
         reason = errno;
     }

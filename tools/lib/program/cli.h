@@ -17,8 +17,9 @@
 
 enum { CLI_DONE = 0, CLI_USAGE = 1, CLI_INPUT = 2, CLI_IO = 3, CLI_ABOVE = 4 };
 
-/* Begin: remembers the program's name for messages, catches SIGINT and SIGTERM
- * so that temporary files are removed. Call first in main(). */
+/* Begin: remembers the program's name for messages. From here on SIGINT and
+ * SIGTERM remove temporary files, say "program: interrupted" and end it at once
+ * with CLI_IO. Call first in main(). */
 void cli_begin(const char *program);
 
 /* Print "program: message" to stderr, remove temporary files, exit(code). */
@@ -37,7 +38,8 @@ void cli_warn(const char *format, ...);
 void *cli_alloc(size_t count, size_t size);
 
 /* Read a whole file into malloc'd, 8-byte aligned memory with a zero byte
- * after the end; cli_fail(CLI_IO) if it cannot be read. "-" is stdin. */
+ * after the end; cli_fail(CLI_IO) if it cannot be read. "-" is stdin, which can
+ * be read once: cli_fail(CLI_USAGE). */
 void *cli_read(const char *path, size_t *size);
 
 /* A file being written. */
@@ -45,11 +47,16 @@ typedef struct {
     FILE *file;
     const char *path;
     char *temporary;
-    char *target; /* where path leads, if it is a link */
+    char *target; /* where path leads, if links do */
 } cli_out_t;
 
-/* Open a temporary file beside path; cli_fail(CLI_IO) if that is impossible. */
+/* Open a temporary file beside what path leads to, which need not be there yet;
+ * cli_fail(CLI_IO) if that is impossible. A device or a pipe is written itself,
+ * and so is stdout, as "-": what is printed from then on goes to stderr. */
 void cli_out_open(cli_out_t *out, const char *path);
+
+/* Would two outputs of these names be one file? Devices and pipes never are. */
+bool cli_same_output(const char *a, const char *b);
 
 /* Flush, check every error so far, rename to the final name. On any failure the
  * temporary file is removed and cli_fail(CLI_IO) names path and reason. */
@@ -67,7 +74,14 @@ void cli_below_progress(void);
 /* Seconds of a clock that only goes forward. */
 double cli_seconds(void);
 
-/* True once SIGINT or SIGTERM arrived: stop soon and exit through cli_fail. */
+/* From here on the first SIGINT or SIGTERM does no more than make
+ * cli_interrupted() true; a second one ends the program all the same. */
+void cli_hold_signals(void);
+
+/* True once a signal arrived that is held: stop soon. */
 bool cli_interrupted(void);
+
+/* Signals end the program again. True if one arrived while they were held. */
+bool cli_release_signals(void);
 
 #endif

@@ -107,7 +107,7 @@ static void describe(char *text, size_t size, const option_t *o)
     switch (o->kind) {
     case OPTION_FILE:
         snprintf(text, size,
-                o->words != NULL ? "a name that ends in %s"
+                o->words != NULL ? "a name that ends in %s, or -"
                                  : "the name of a file%s",
                 words);
         break;
@@ -292,7 +292,8 @@ static bool take_size(const option_t *option, const char *text)
 
 static bool take_text(const option_t *option, const char *text)
 {
-    bool fits = option->kind != OPTION_FILE || option->words == NULL;
+    bool fits = option->kind != OPTION_FILE || option->words == NULL ||
+                strcmp(text, "-") == 0;
 
     for (unsigned i = 0; !fits && option->words[i] != NULL; i++) {
         const size_t size = strlen(text), end = strlen(option->words[i]);
@@ -399,6 +400,34 @@ static void answer(int argc, char **argv)
     }
 }
 
+/* A file that is to be written, or NULL. */
+static const char *output_of(const option_t *option)
+{
+    const char *path = NULL;
+
+    if (option->kind == OPTION_FILE && is_given(option)) {
+        memcpy(&path, line.into + option->field.at, sizeof path);
+    }
+    return path;
+}
+
+/* The second of two outputs would replace the first. */
+static void refuse_same_outputs(void)
+{
+    const option_t *a, *b;
+
+    for (unsigned i = 0; (a = option_at(i)) != NULL; i++) {
+        for (unsigned k = 0; k < i && output_of(a) != NULL; k++) {
+            b = option_at(k);
+            if (output_of(b) != NULL &&
+                    cli_same_output(output_of(b), output_of(a))) {
+                options_fail("'%.*s %s': '%.*s' writes this file", name_size(a),
+                        a->name, output_of(a), name_size(b), b->name);
+            }
+        }
+    }
+}
+
 void options_parse(const program_t *program, int argc, char **argv, void *into)
 {
     const option_t *o;
@@ -419,4 +448,5 @@ void options_parse(const program_t *program, int argc, char **argv, void *into)
             options_fail("missing %s", o->name);
         }
     }
+    refuse_same_outputs();
 }

@@ -11,12 +11,12 @@
 #define AT(field)   OPTION_FIELD(render_options_t, field)
 
 /* Words in the order of the core's enums, as develop_formats are. */
-static const char *const samplers[] = {"random", "sobol", NULL};
-static const char *const directs[] = {
+const char *const render_words_sampler[] = {"random", "sobol", NULL};
+const char *const render_words_direct[] = {
         "none", "area", "hemisphere", "cosine", "solid-angle", "mis", NULL};
-static const char *const indirects[] = {
+const char *const render_words_indirect[] = {
         "none", "cosine", "uniform", "brdf", NULL};
-static const char *const lights[] = {"power", "all", "uniform", NULL};
+const char *const render_words_lights[] = {"power", "all", "uniform", NULL};
 
 static const char *const pictures[] = {".ppm", ".pfm", ".png", NULL};
 static const char *const linear[] = {".pfm", NULL};
@@ -39,15 +39,18 @@ const option_t render_options_settings[] = {
                 .max = QL_SPP_MAX, .help = "samples a pixel"},
         {"--seed N", OPTION_NUMBER, AT(settings.seed), .max = UINT32_MAX,
                 .help = "of the random numbers"},
-        {"--sampler S", OPTION_WORD, AT(settings.sampler), .words = samplers,
-                .help = "points of a pixel"},
-        {"--direct D", OPTION_WORD, AT(settings.direct), .words = directs,
+        {"--sampler S", OPTION_WORD, AT(settings.sampler),
+                .words = render_words_sampler, .help = "points of a pixel"},
+        {"--direct D", OPTION_WORD, AT(settings.direct),
+                .words = render_words_direct,
                 .help = "light straight from emitters"},
-        {"--indirect I", OPTION_WORD, AT(settings.indirect), .words = indirects,
+        {"--indirect I", OPTION_WORD, AT(settings.indirect),
+                .words = render_words_indirect,
                 .help = "light from other surfaces, by directions"},
         {"--bounces N", OPTION_NUMBER, AT(settings.bounces),
                 .max = QL_BOUNCES_MAX, .help = "indirect reflections"},
-        {"--lights L", OPTION_WORD, AT(settings.lights), .words = lights,
+        {"--lights L", OPTION_WORD, AT(settings.lights),
+                .words = render_words_lights,
                 .help = "emitters asked at a hit; power and uniform ask one"},
         {"--light-samples N", OPTION_NUMBER, AT(settings.light_samples),
                 .min = 1, .max = UINT8_MAX, .help = "of each emitter asked"},

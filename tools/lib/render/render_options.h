@@ -28,6 +28,12 @@ typedef struct {
     bool roulette;
 } render_options_t;
 
+/* Words in the order of the core's enums, as develop_formats are. */
+extern const char *const render_words_sampler[];
+extern const char *const render_words_direct[];
+extern const char *const render_words_indirect[];
+extern const char *const render_words_lights[];
+
 /* Parts of a program's table. Their fields lie in a render_options_t. */
 extern const option_t render_options_scene[];    /* SCENE.qlb */
 extern const option_t render_options_picture[];  /* -o, --format */

@@ -105,6 +105,7 @@ bool rows_render(const rows_t *rows)
     const sums_range_t *r = &rows->range;
     const uint32_t count = r->row_end - r->row_first;
     shared_t shared;
+    bool stopped;
 
     memset(&shared, 0, sizeof shared);
     shared.rows = rows;
@@ -112,9 +113,11 @@ bool rows_render(const rows_t *rows)
     shared.total =
             (uint64_t)count * rows->width * (r->sample_end - r->sample_first);
     pthread_mutex_init(&shared.lock, NULL);
+    cli_hold_signals();
     run_threads(&shared, rows->threads < count ? rows->threads : count);
+    stopped = cli_release_signals();
     pthread_mutex_destroy(&shared.lock);
-    return shared.done == shared.total;
+    return shared.done == shared.total && !stopped;
 }
 
 void rows_print_stats(

@@ -169,9 +169,6 @@ static void partition(
 static void make_leaf(
         builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n)
 {
-    if (cli_interrupted()) {
-        cli_fail(CLI_IO, "interrupted");
-    }
     node->link = first;
     node->meta = BVH_LEAF + n;
     b->done += n;
