@@ -100,13 +100,13 @@ say case_28_stats_count_nothing_where_nothing_is_cut $?
 
 # ---- Case 50: nothing to see ----
 
-: >"$work/none.obj"
+echo 'mtllib flat.mtl' >"$work/none.obj"
 scene none <<'END'
 mesh none.obj
 camera eye 0 0 3 look 0 0 0 up 0 1 0 fov 40
 image 1 1
 END
-say case_50_an_empty_mesh_compiles $?
+say case_50_a_mesh_of_materials_alone_compiles $?
 "$build/qlux-sim" "$work/none.qlb" -o "$work/none.pfm" --spp 1 --quiet &&
     [ "$(tail -c 12 "$work/none.pfm" | tr -d '\000' | wc -c)" -eq 0 ]
 say case_50_an_empty_scene_is_one_black_pixel $?

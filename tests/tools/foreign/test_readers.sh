@@ -118,6 +118,10 @@ obj 'mtllib\nf 1 2 3\n'
 takes mtllib_without_a_name_is_none 1 <<'END'
 a.obj:5: mtllib without a name names no materials
 END
+obj 'mtllib ./\nf 1 2 3\n'
+takes a_folder_is_no_library 1 <<'END'
+a.obj:5: cannot read './'; its materials are grey 0.5
+END
 use='mtllib a.mtl\nusemtl Material #1\nf 1 2 3\nusemtl Material #2\nf 2 3 4\n'
 obj "$use"
 mtl 'newmtl Material #1\nKd 0.25\nnewmtl Material #2\nKd 0.125\n'
@@ -272,7 +276,7 @@ a.mtl:6: 'illum 9' of 'c' is not modelled: opaque; illum 7 makes it glass
 a.mtl:8: 'illum 8' of 'd' is not modelled: as illum 2; illum 3 makes it a mirror
 a.mtl:10: 'illum 10' of 'e' is not modelled: as illum 2
 END
-mtl 'newmtl w\nmap_Kd a.png\nKd 0 0 0\nnewmtl b\nKd 0.5 1 0\nmap_kd a #2.png
+mtl 'newmtl w\nmap_Kd a.png\nKd 0 0 0\nnewmtl b\nKd 0.5 1 0\nMAP_KD a #2.png
 newmtl c\nmap_Kd a.png\nnewmtl d\nKd 0\nKs 1\nNs 9\nmap_Kd a.png
 newmtl e\nKd 0\nKe 1\nmap_Kd a.png\nmap_Ke b.png
 newmtl f\nKd 0\nmap_Kd c.png\nillum 7\nmap_Ke b.png\n'

@@ -364,8 +364,7 @@ static void read_ka(reader_t *reader, const char *key)
     (void)read_colour(reader, key, unused);
 }
 
-/* Say what is done instead of what the format has beside these keys. Programs
- * do not agree on capital letters in the names of maps. */
+/* Say what is done instead of what the format has beside these keys. */
 static void report_other(reader_t *reader, const char *key)
 {
     static const struct {
@@ -391,6 +390,13 @@ static void report_other(reader_t *reader, const char *key)
             reader->material->name);
 }
 
+/* Capital letters count, but in the names of maps. */
+static bool is_key(const char *key, const char *name)
+{
+    return strcmp(key, name) == 0 ||
+           (strncmp(name, "map_", 4) == 0 && strcasecmp(key, name) == 0);
+}
+
 static void read_key(reader_t *reader, const char *key)
 {
     static const struct {
@@ -399,8 +405,7 @@ static void read_key(reader_t *reader, const char *key)
     } keys[] = {{"Kd", read_kd}, {"Ks", read_ks}, {"Tf", read_tf},
             {"Ke", read_ke}, {"Ns", read_exponent}, {"Ni", read_index},
             {"illum", read_illum}, {"d", read_opacity}, {"Tr", read_opacity},
-            {"Ka", read_ka}, {"map_Kd", read_map_kd}, {"map_kd", read_map_kd},
-            {"map_Ke", read_map_ke}, {"map_ke", read_map_ke}};
+            {"Ka", read_ka}, {"map_Kd", read_map_kd}, {"map_Ke", read_map_ke}};
 
     if (strcmp(key, "newmtl") == 0) {
         read_newmtl(reader);
@@ -414,7 +419,7 @@ static void read_key(reader_t *reader, const char *key)
         return;
     }
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        if (strcmp(key, keys[i].name) == 0) {
+        if (is_key(key, keys[i].name)) {
             keys[i].read(reader, keys[i].name);
             return;
         }

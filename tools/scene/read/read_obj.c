@@ -275,14 +275,17 @@ static void read_usemtl(reader_t *reader)
     add_used(reader, name);
 }
 
+/* A folder can be opened, but not read. */
 static bool is_readable(const char *path)
 {
     FILE *file = fopen(path, "rb");
+    bool readable = false;
 
     if (file != NULL) {
+        readable = fgetc(file) != EOF || !ferror(file);
         fclose(file);
     }
-    return file != NULL;
+    return readable;
 }
 
 /* Read one library unless it has been tried; a missing one is no error. */
