@@ -40,7 +40,7 @@ say qlux_ref_draws_one_bar $?
 # 4999 triangles: the last leaf begins no further 256.
 awk 'BEGIN { print "v 0 0 0\nv 1 0 0"
     for (i = 0; i < 4999; i++) print "v 0 1 " i "\nf 1 2 -1" }' >a.obj
-printf 'mesh a.obj\ncamera eye 0 0 -9 look 0 0 0 fov 40\n' >a.scene
+printf 'mesh a.obj\nsky 1 1 1\ncamera eye 0 0 -9 look 0 0 0 fov 40\n' >a.scene
 "$pty" watch "$build/qlux-scene" a.scene -o a.qlb >seen.txt
 grep -v 'triangles' seen.txt >bar.txt && mv bar.txt seen.txt && ends bvh
 say qlux_scene_draws_one_bar $?
