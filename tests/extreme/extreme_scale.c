@@ -255,7 +255,7 @@ TEST(case_20_turned_and_mirrored_scenes_have_the_same_mean)
     double worst = 0, chi2 = 0, fault;
 
     make_room(0, 1000);
-    first = estimate_pixel(&m, &s, 4, 4, 1u << 15);
+    first = estimate_pixel(&m, &s, 4, 4, MANY(1u << 15));
     for (unsigned way = 1; way < 48; way++) {
         ql_settings_t other = s;
         stats_moments_t got;
@@ -263,7 +263,7 @@ TEST(case_20_turned_and_mirrored_scenes_have_the_same_mean)
 
         other.seed += way;
         make_room(way, 1000);
-        got = estimate_pixel(&m, &other, 4, 4, 1u << 11);
+        got = estimate_pixel(&m, &other, 4, 4, MANY(1u << 11));
         z = (got.mean - first.mean) / sqrt(stats_variance(&got) / got.n +
                                               stats_variance(&first) / first.n);
         CHECK(fabs(z) < STATS_Z_MAX, "way %u: %.6f, not %.6f, z %.1f", way,
@@ -275,7 +275,7 @@ TEST(case_20_turned_and_mirrored_scenes_have_the_same_mean)
     /* a lamp a tenth too bright is told apart */
     make_room(47, 1000);
     m.light_weight_scale = 1.1;
-    first.mean -= estimate_pixel(&m, &s, 4, 4, 1u << 15).mean;
+    first.mean -= estimate_pixel(&m, &s, 4, 4, MANY(1u << 15)).mean;
     fault = -first.mean / sqrt(2 * stats_variance(&first) / first.n);
     CHECK(fault > STATS_Z_MAX, "a brighter lamp: z %.1f", fault);
     NOTE("47 ways; worst z %.1f, chi2 %.0f; a lamp 10 %% brighter: %.0f", worst,
