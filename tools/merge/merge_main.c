@@ -1,10 +1,17 @@
 /* merge_main.c - qlux-merge: add up parts of one picture, bit for bit */
 /* SPDX-License-Identifier: MIT */
 
+#define _XOPEN_SOURCE     700 /* fileno() */
+#define _FILE_OFFSET_BITS 64
+
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 
+#include "lib/image/pnm.h"
 #include "lib/program/options.h"
 #include "lib/render/develop.h"
 #include "merge/fields.h"
@@ -42,7 +49,8 @@ static const program_t program = {.name = "qlux-merge",
         .sections = sections,
         .notes = "Parts come from qlux-sim --save-sums. They must be of one "
                  "scene and have the same settings; no sample may be in two of "
-                 "them.",
+                 "them. Rows pass one by one, so a picture may be larger than "
+                 "memory, but for a .png, which is put together there.",
         .example = "qlux-sim box.qlb --rows 0:64 --save-sums top.qls\n"
                    "qlux-sim box.qlb --rows 64:128 --save-sums low.qls\n"
                    "qlux-merge top.qls low.qls -o box.png"};
@@ -58,41 +66,167 @@ static void check_options(const options_t *o)
     }
 }
 
-/* The part must be of the same picture as the first one. */
-static void check_fit(const sums_t *whole, const sums_t *part,
-        const option_list_t *parts, unsigned i)
+/* What is merged, a row at a time. */
+typedef struct {
+    sums_t whole; /* fields and ranges; no pixels */
+    sums_file_t *parts;
+    const option_list_t *names;
+    ql_sum_t *sum, *add; /* rows */
+} merge_t;
+
+/* A file that can seek: what cannot is copied into a temporary one. */
+static FILE *open_part(const char *path, uint64_t *size)
 {
-    const unsigned field = sums_compare(whole, part);
+    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb"), *copy;
+    char bytes[BUFSIZ];
+    struct stat info;
+    size_t n;
+
+    if (file == NULL || fstat(fileno(file), &info) != 0) {
+        cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
+    }
+    if (!S_ISREG(info.st_mode)) {
+        copy = tmpfile();
+        while (copy != NULL && (n = fread(bytes, 1, BUFSIZ, file)) > 0) {
+            fwrite(bytes, 1, n, copy);
+        }
+        if (ferror(file) || copy == NULL || fflush(copy) != 0 ||
+                fstat(fileno(copy), &info) != 0) {
+            cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
+        }
+        file = copy;
+    }
+    *size = (uint64_t)info.st_size;
+    return file;
+}
+
+/* The part must be of the same picture as the first one. */
+static void check_fit(const merge_t *m, unsigned i)
+{
+    const sums_t *part = &m->parts[i].head;
+    const unsigned field = sums_compare(&m->whole, part);
     char text[2][FIELDS_TEXT_BYTES];
 
     if (field != SUMS_FIELD_COUNT) {
-        cli_fail(CLI_INPUT, "%s: its %s is %s, but %s in %s", parts->items[i],
-                fields_name(field), fields_text(text[0], part, field),
-                fields_text(text[1], whole, field), parts->items[0]);
+        cli_fail(CLI_INPUT, "%s: its %s is %s, but %s in %s",
+                m->names->items[i], fields_name(field),
+                fields_text(text[0], part, field),
+                fields_text(text[1], &m->whole, field), m->names->items[0]);
     }
 }
 
-/* Add a part. Sums stay at their maximum as they do while rendering, so any
- * order of adding gives the same bits. */
-static void add_part(sums_t *whole, const sums_t *part, const char *path)
+static void claim_ranges(merge_t *m, unsigned i)
 {
-    const size_t pixels =
-            (size_t)whole->field[SUMS_WIDTH] * whole->field[SUMS_HEIGHT];
+    const sums_t *part = &m->parts[i].head;
+    sums_range_t clash;
 
-    for (uint32_t i = 0; i < part->range_count; i++) {
-        sums_range_t clash;
-        if (!sums_claim(whole, part->ranges + i, &clash)) {
+    for (uint32_t k = 0; k < part->range_count; k++) {
+        if (!sums_claim(&m->whole, part->ranges + k, &clash)) {
             cli_fail(CLI_INPUT,
-                    "%s: rows %u:%u samples %u:%u were counted before", path,
-                    (unsigned)clash.row_first, (unsigned)clash.row_end,
-                    (unsigned)clash.sample_first, (unsigned)clash.sample_end);
+                    "%s: rows %u:%u samples %u:%u were counted before",
+                    m->names->items[i], (unsigned)clash.row_first,
+                    (unsigned)clash.row_end, (unsigned)clash.sample_first,
+                    (unsigned)clash.sample_end);
         }
     }
-    for (size_t i = 0; i < 3 * pixels; i++) {
-        uint64_t *sum = whole->pixels[i / 3].rgb + i % 3;
-        const uint64_t add = part->pixels[i / 3].rgb[i % 3];
-        *sum = add > UINT64_MAX - *sum ? UINT64_MAX : *sum + add;
+}
+
+/* Open all parts; they stay open, however many they are. */
+static void begin_merge(merge_t *m, const option_list_t *names)
+{
+    struct rlimit files;
+    uint64_t size, where;
+    const char *error;
+    FILE *file;
+
+    if (getrlimit(RLIMIT_NOFILE, &files) == 0) {
+        files.rlim_cur = files.rlim_max;
+        (void)setrlimit(RLIMIT_NOFILE, &files);
     }
+    memset(m, 0, sizeof *m);
+    m->names = names;
+    m->parts = cli_alloc(names->count, sizeof *m->parts);
+    for (unsigned i = 0; i < names->count; i++) {
+        file = open_part(names->items[i], &size);
+        error = sums_open(m->parts + i, fileno(file), size, &where);
+        if (error != NULL) {
+            cli_fail(CLI_INPUT, "%s: byte %" PRIu64 ": %s", names->items[i],
+                    where, error);
+        }
+        if (i == 0) {
+            memcpy(m->whole.field, m->parts[0].head.field,
+                    sizeof m->whole.field);
+        }
+        check_fit(m, i);
+        claim_ranges(m, i);
+    }
+    m->sum = cli_alloc(m->whole.field[SUMS_WIDTH], sizeof *m->sum);
+    m->add = cli_alloc(m->whole.field[SUMS_WIDTH], sizeof *m->add);
+}
+
+/* Row y of the whole in m->sum. Sums stay at their maximum as they do while
+ * rendering, so any order of adding gives the same bits. */
+static void add_rows(merge_t *m, uint32_t y)
+{
+    const size_t n = 3 * (size_t)m->whole.field[SUMS_WIDTH];
+
+    memset(m->sum, 0, n / 3 * sizeof *m->sum);
+    for (unsigned i = 0; i < m->names->count; i++) {
+        if (!sums_row(m->parts + i, y, m->add)) {
+            continue;
+        }
+        for (size_t k = 0; k < n; k++) {
+            uint64_t *sum = m->sum[k / 3].rgb + k % 3;
+            const uint64_t add = m->add[k / 3].rgb[k % 3];
+            *sum = add > UINT64_MAX - *sum ? UINT64_MAX : *sum + add;
+        }
+    }
+}
+
+/* Row by row, but for a PNG, whose bytes are compressed as one. */
+static void write_picture(merge_t *m, const options_t *o, cli_out_t *out)
+{
+    const image_kind_t kind = image_kind(o->picture);
+    const uint32_t height = m->whole.field[SUMS_HEIGHT];
+    const uint32_t rows = kind == IMAGE_PNG ? height : 1;
+    image_t image,
+            size = {.width = m->whole.field[SUMS_WIDTH], .height = height};
+
+    if (kind == IMAGE_PFM) {
+        image_new_floats(&image, size.width, rows);
+    } else {
+        image_new_bytes(&image, size.width, rows);
+    }
+    if (kind != IMAGE_PNG) {
+        pnm_write_head(kind == IMAGE_PFM ? "PF" : "P6", &size, out->file);
+    }
+    for (uint32_t i = 0; i < height; i++) {
+        const uint32_t y = kind == IMAGE_PFM ? height - 1 - i : i;
+
+        add_rows(m, y);
+        develop_row(&image, &m->whole, m->sum, y, o->format);
+        if (kind != IMAGE_PNG) {
+            pnm_write_row(&image, out->file);
+        }
+    }
+    if (kind == IMAGE_PNG) {
+        image_write(&image, kind, out);
+    }
+    image_free(&image);
+}
+
+static void write_sums(merge_t *m, cli_out_t *out)
+{
+    sums_writer_t to;
+
+    sums_write_head(&to, &m->whole, out);
+    for (uint32_t y = 0; y < m->whole.field[SUMS_HEIGHT]; y++) {
+        if (sums_row_count(&m->whole, y) != 0) {
+            add_rows(m, y);
+            sums_write_row(&to, m->sum, m->whole.field[SUMS_WIDTH]);
+        }
+    }
+    sums_write_end(&to);
 }
 
 static void warn_of_gaps(const sums_t *sums)
@@ -123,33 +257,33 @@ static void warn_of_gaps(const sums_t *sums)
 int main(int argc, char **argv)
 {
     options_t o = {.quiet = false};
-    sums_t whole, part;
+    merge_t m;
     cli_out_t picture, save;
 
     options_parse(&program, argc, argv, &o);
     check_options(&o);
-    sums_read(&whole, o.parts.items[0]);
-    for (unsigned i = 1; i < o.parts.count; i++) {
-        sums_read(&part, o.parts.items[i]);
-        check_fit(&whole, &part, &o.parts, i);
-        add_part(&whole, &part, o.parts.items[i]);
-        sums_free(&part);
-    }
+    begin_merge(&m, &o.parts);
     if (!o.quiet) {
-        warn_of_gaps(&whole);
+        warn_of_gaps(&m.whole);
     }
     if (o.picture != NULL) {
         cli_out_open(&picture, o.picture);
-        develop_write(&whole, image_kind(o.picture), o.format, &picture);
+        write_picture(&m, &o, &picture);
     }
     if (o.save != NULL) {
         cli_out_open(&save, o.save);
-        sums_write(&whole, &save);
+        write_sums(&m, &save);
         cli_out_commit(&save);
     }
     if (o.picture != NULL) {
         cli_out_commit(&picture);
     }
-    sums_free(&whole);
+    for (unsigned i = 0; i < o.parts.count; i++) {
+        sums_free(&m.parts[i].head);
+    }
+    sums_free(&m.whole);
+    free(m.parts);
+    free(m.sum);
+    free(m.add);
     return CLI_DONE;
 }

@@ -97,6 +97,49 @@ high=$(od -An -v -tu4 -j 92 -N 144 -w8 whole.qls | awk '$2 > 0' | wc -l)
 [ "$high" -eq 18 ]
 say all_of_their_sums_are_beyond_32_bits $? "$high of 18"
 
+# ---- Large pictures: rows pass one by one
+
+# Row 0 of so many of 16384 pixels, from a picture of one row.
+for i in 0 1; do
+    "$sim" scene.qlb --size 16384x1 --spp 2 --samples $i:$((i + 1)) --quiet \
+        --save-sums row$i.qls && "$patch" row$i.qls 8 00400000 >tall$i.qls &&
+        "$patch" row$i.qls 8 00040000 >short$i.qls
+done
+ln -s /dev/null null.ppm
+"$merge" row0.qls row1.qls --save-sums row.qls &&
+    "$patch" row.qls 8 00400000 >tall.qls
+(ulimit -v 60000 && "$merge" tall0.qls tall1.qls --quiet -o null.ppm \
+    --save-sums sum.qls) && cmp -s sum.qls tall.qls
+say a_picture_of_16384x16384_takes_less_than_60_megabytes $?
+(ulimit -v 60000 && "$merge" short0.qls short1.qls --quiet -o - >short.ppm &&
+    "$merge" short0.qls short1.qls --quiet -o short.pfm) &&
+    [ "$(wc -c <short.ppm)" -eq $((18 + 3 * 16384 * 1024)) ] &&
+    [ "$(wc -c <short.pfm)" -eq $((19 + 12 * 16384 * 1024)) ]
+say so_do_a_ppm_and_a_pfm $?
+rm short.ppm short.pfm
+(ulimit -v 60000 && exec "$merge" tall0.qls --quiet -o no.png) 2>err.txt
+[ $? -eq 3 ] && grep -q '^qlux-merge: out of memory for ' err.txt &&
+    [ ! -e no.png ]
+say what_does_not_fit_says_so $?
+# More bytes than a number of 32 bits counts, of which none is on the disk.
+truncate -s $((16384 * 16384 * 24 + 96)) bad.qls
+"$merge" bad.qls -o no.ppm 2>err.txt
+[ $? -eq 2 ] && grep -q 'byte 0: expected a sum file (QLS3)' err.txt
+say a_file_of_6_gigabytes_is_opened $?
+rm bad.qls
+rows="--size 3x30 --spp 1 --quiet"
+y=0
+while [ $y -lt 30 ]; do
+    # shellcheck disable=SC2086
+    "$sim" scene.qlb $rows --rows $y:$((y + 1)) --save-sums y$y.qls
+    y=$((y + 1))
+done
+# shellcheck disable=SC2086
+"$sim" scene.qlb $rows --save-sums whole.qls -o whole.pfm
+(ulimit -S -n 20 && "$merge" y*.qls --save-sums sum.qls -o sum.pfm) &&
+    cmp -s sum.qls whole.qls && cmp -s sum.pfm whole.pfm
+say more_parts_than_files_may_be_open_are_merged $?
+
 # ---- Parts of two pictures
 
 # differs CLAIM TEXT-OF-THE-SECOND PROGRAM OPTION...: against qlux-sim with mis

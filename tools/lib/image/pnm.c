@@ -193,27 +193,44 @@ const char *pnm_decode(
     return error;
 }
 
+void pnm_write_head(const char *magic, const image_t *size, FILE *file)
+{
+    fprintf(file, "%s\n%u %u\n%s\n", magic, (unsigned)size->width,
+            (unsigned)size->height, magic[1] == '6' ? "255" : "-1.0");
+}
+
+void pnm_write_row(const image_t *line, FILE *file)
+{
+    const size_t n = 3 * (size_t)line->width;
+    uint8_t *row;
+    uint32_t bits;
+
+    if (line->floats == NULL) {
+        fwrite(line->bytes, 1, n, file);
+        return;
+    }
+    row = cli_alloc(n, 4);
+    for (size_t i = 0; i < n; i++) {
+        memcpy(&bits, line->floats + i, sizeof bits);
+        bytes_put_le32(row + 4 * i, bits);
+    }
+    fwrite(row, 4, n, file);
+    free(row);
+}
+
 void pnm_write_ppm(const image_t *image, FILE *file)
 {
-    fprintf(file, "P6\n%u %u\n255\n", (unsigned)image->width,
-            (unsigned)image->height);
+    pnm_write_head("P6", image, file);
     fwrite(image->bytes, (size_t)3 * image->width, image->height, file);
 }
 
 void pnm_write_pfm(const image_t *image, FILE *file)
 {
-    const size_t n = 3 * (size_t)image->width;
-    uint8_t *row = cli_alloc(n, 4);
+    image_t line = *image;
 
-    fprintf(file, "PF\n%u %u\n-1.0\n", (unsigned)image->width,
-            (unsigned)image->height);
+    pnm_write_head("PF", image, file);
     for (size_t y = image->height; y-- > 0;) {
-        for (size_t i = 0; i < n; i++) {
-            uint32_t bits;
-            memcpy(&bits, image->floats + n * y + i, sizeof bits);
-            bytes_put_le32(row + 4 * i, bits);
-        }
-        fwrite(row, 4, n, file);
+        line.floats = image->floats + 3 * (size_t)image->width * y;
+        pnm_write_row(&line, file);
     }
-    free(row);
 }

@@ -27,4 +27,9 @@ void pnm_write_ppm(const image_t *image, FILE *file);
 /* Write a picture of floats, little-endian. */
 void pnm_write_pfm(const image_t *image, FILE *file);
 
+/* The same piece by piece: what stands before the rows, and a row of width
+ * pixels. A PFM begins with the lowest row. */
+void pnm_write_head(const char *magic, const image_t *size, FILE *file);
+void pnm_write_row(const image_t *line, FILE *file);
+
 #endif

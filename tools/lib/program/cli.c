@@ -183,10 +183,13 @@ static void *read_all(FILE *file, const char *path, size_t *size)
             break;
         }
         room *= 2;
-        data = room <= READ_MAX ? realloc(data, room + 1) : NULL;
-        if (data == NULL) {
+        if (room > READ_MAX) {
             cli_fail(CLI_IO, "%s: too large to read (above %zu bytes)", path,
-                    room / 2);
+                    READ_MAX);
+        }
+        data = realloc(data, room + 1);
+        if (data == NULL) {
+            cli_fail(CLI_IO, "%s: out of memory for %zu bytes", path, room);
         }
     }
     if (ferror(file)) {

@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "lib/render/widen.h"
 
@@ -40,49 +41,60 @@ static float mean_float(uint64_t sum, uint32_t count, int exponent)
 }
 
 /* Samples of a pixel in a row of so many. */
-static uint32_t count_of(const sums_t *sums, size_t pixel, uint32_t row)
+static uint32_t count_of(
+        const sums_t *sums, uint32_t x, uint32_t y, uint32_t row)
 {
-    return sums->counts != NULL ? sums->counts[pixel] : row;
+    return sums->counts != NULL
+                   ? sums->counts[(size_t)sums->field[SUMS_WIDTH] * y + x]
+                   : row;
 }
 
-static void develop_linear(image_t *image, const sums_t *sums)
+static void develop_linear(
+        float *out, const sums_t *sums, const ql_sum_t *pixels, uint32_t y)
 {
-    const size_t width = image->width;
     const int exponent = (int)sums_field_value(sums, SUMS_RADIANCE_EXP);
+    const uint32_t row = sums_row_count(sums, y);
 
-    for (uint32_t y = 0; y < image->height; y++) {
-        const uint32_t row = sums_row_count(sums, y);
-        for (size_t i = 3 * width * y; i < 3 * width * (y + 1); i++) {
-            image->floats[i] = mean_float(sums->pixels[i / 3].rgb[i % 3],
-                    count_of(sums, i / 3, row), exponent - QL_SUM_BITS);
+    for (uint32_t x = 0; x < sums->field[SUMS_WIDTH]; x++) {
+        for (unsigned k = 0; k < 3; k++) {
+            *out++ = mean_float(pixels[x].rgb[k], count_of(sums, x, y, row),
+                    exponent - QL_SUM_BITS);
         }
     }
 }
 
-static void develop_display(
-        image_t *image, const sums_t *sums, ql_format_t format)
+static void develop_display(uint8_t *out, const sums_t *sums,
+        const ql_sum_t *pixels, uint32_t y, ql_format_t format)
 {
-    const size_t width = image->width;
+    const uint32_t width = sums->field[SUMS_WIDTH];
+    const uint32_t row = sums_row_count(sums, y);
     const ql_real_t exposure =
             ql_film_exposure((int16_t)sums_field_value(sums, SUMS_RADIANCE_EXP),
                     (int16_t)sums_field_value(sums, SUMS_EXPOSURE_Q8));
-    uint8_t *line = cli_alloc(QL_LINE_BYTES(width, format), 1);
+    uint8_t *line = cli_alloc(QL_LINE_BYTES((size_t)width, format), 1);
 
-    for (uint32_t y = 0; y < image->height; y++) {
-        const uint32_t row = sums_row_count(sums, y);
-        if (row == 0) {
-            continue; /* not even dithered */
-        }
-        for (size_t x = 0; x < width; x++) {
-            const size_t i = width * y + x;
-            ql_uq16_t linear[3];
-            ql_film_display(
-                    sums->pixels + i, count_of(sums, i, row), exposure, linear);
-            ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
-        }
-        widen_line(image->bytes + 3 * width * y, line, format, image->width);
+    for (uint32_t x = 0; x < width; x++) {
+        ql_uq16_t linear[3];
+        ql_film_display(
+                pixels + x, count_of(sums, x, y, row), exposure, linear);
+        ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
     }
+    widen_line(out, line, format, width);
     free(line);
+}
+
+void develop_row(image_t *image, const sums_t *sums, const ql_sum_t *pixels,
+        uint32_t y, ql_format_t format)
+{
+    const size_t at = image->height > 1 ? 3 * (size_t)image->width * y : 0;
+
+    if (image->floats != NULL) {
+        develop_linear(image->floats + at, sums, pixels, y);
+    } else if (sums_row_count(sums, y) != 0) {
+        develop_display(image->bytes + at, sums, pixels, y, format);
+    } else { /* not even dithered */
+        memset(image->bytes + at, 0, 3 * (size_t)image->width);
+    }
 }
 
 void develop(image_t *image, const sums_t *sums, image_kind_t kind,
@@ -93,10 +105,11 @@ void develop(image_t *image, const sums_t *sums, image_kind_t kind,
 
     if (kind == IMAGE_PFM) {
         image_new_floats(image, width, height);
-        develop_linear(image, sums);
     } else {
         image_new_bytes(image, width, height);
-        develop_display(image, sums, format);
+    }
+    for (uint32_t y = 0; y < height; y++) {
+        develop_row(image, sums, sums->pixels + (size_t)width * y, y, format);
     }
 }
 

@@ -23,6 +23,14 @@ extern const char *const develop_formats[QL_FORMAT_COUNT + 1];
 void develop(image_t *image, const sums_t *sums, image_kind_t kind,
         ql_format_t format);
 
+/* Row y of it, from width pixels.
+ *
+ *   image   -  in and out: with floats or bytes; of one row, or the picture
+ *   pixels  -  of the row; sums has no other part in it than fields and ranges
+ */
+void develop_row(image_t *image, const sums_t *sums, const ql_sum_t *pixels,
+        uint32_t y, ql_format_t format);
+
 /* The same, straight into an open file. */
 void develop_write(const sums_t *sums, image_kind_t kind, ql_format_t format,
         cli_out_t *out);

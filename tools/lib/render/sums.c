@@ -1,10 +1,17 @@
 /* sums.c - sum files: exact sums of samples, to be added up across machines */
 /* SPDX-License-Identifier: MIT */
 
+#ifndef _XOPEN_SOURCE
+#define _XOPEN_SOURCE 700 /* pread() */
+#endif
+#define _FILE_OFFSET_BITS 64
+
 #include "lib/render/sums.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/ql_crc.h"
 #include "base/ql_settings.h"
@@ -14,7 +21,8 @@ enum {
     HEAD_BYTES = 8 + 4 * SUMS_FIELD_COUNT,
     RANGE_BYTES = 16,
     PIXEL_BYTES = 24,
-    CRC_BYTES = 4
+    CRC_BYTES = 4,
+    STEP_BYTES = 1 << 16
 };
 
 static const struct {
@@ -98,10 +106,6 @@ bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash)
             *clash = *r;
             return false;
         }
-    }
-    if (sums->range_count >= SUMS_RANGE_MAX) {
-        *clash = *range;
-        return false;
     }
     append_range(sums, range);
     return true;
@@ -218,6 +222,48 @@ static void join_ranges(sums_t *sums)
 
 /* ---- Read -------------------------------------------------------------- */
 
+/* Size bytes of the file from an offset on. */
+static void fetch(
+        const sums_file_t *file, uint64_t at, void *bytes, size_t size)
+{
+    uint8_t *to = bytes;
+
+    if (file->data != NULL) {
+        memcpy(to, file->data + at, size);
+        return;
+    }
+    while (size > 0) {
+        const ssize_t n = pread(file->fd, to, size, (off_t)at);
+
+        if (n == 0 || (n < 0 && errno != EINTR)) {
+            cli_fail(CLI_IO, "cannot read a sum file: %s",
+                    n == 0 ? "it became shorter" : strerror(errno));
+        }
+        to += n > 0 ? n : 0;
+        at += n > 0 ? (uint64_t)n : 0;
+        size -= n > 0 ? (size_t)n : 0;
+    }
+}
+
+static bool is_crc_right(const sums_file_t *file)
+{
+    uint8_t *step = cli_alloc(STEP_BYTES, 1);
+    uint32_t crc = 0;
+
+    for (uint64_t at = 0; at < file->size;) {
+        const uint64_t left = file->size - at;
+        const size_t n = left < STEP_BYTES ? (size_t)left : STEP_BYTES;
+
+        fetch(file, at, step, n);
+        crc = ql_crc32(crc, step, n);
+        at += n;
+    }
+    fetch(file, file->size, step, CRC_BYTES);
+    crc ^= bytes_get_le32(step);
+    free(step);
+    return crc == 0;
+}
+
 static const char *take_fields(sums_t *sums, const uint8_t *data, size_t *at)
 {
     static char message[80];
@@ -257,106 +303,154 @@ static const char *take_ranges(
     return NULL;
 }
 
-static void take_row(ql_sum_t *row, uint32_t width, const uint8_t *data)
+static uint64_t row_bytes(const sums_file_t *file)
 {
-    for (size_t i = 0; i < 3 * (size_t)width; i++, data += 8) {
-        row[i / 3].rgb[i % 3] = bytes_get_le64(data);
-    }
+    return (uint64_t)PIXEL_BYTES * file->head.field[SUMS_WIDTH];
 }
 
-/* The rows that some range holds. Their number is checked first, so that a
- * small file cannot ask for much memory. */
-static const char *take_rows(
-        sums_t *sums, const uint8_t *data, size_t left, size_t *at)
+/* The rows that some range holds are the rest of the file. */
+static const char *check_rows(sums_file_t *file, uint64_t at)
 {
-    const uint32_t width = sums->field[SUMS_WIDTH];
-    const uint32_t height = sums->field[SUMS_HEIGHT];
-    const size_t row_bytes = (size_t)PIXEL_BYTES * width;
     uint64_t rows = 0;
 
-    for (uint32_t y = 0; y < height; y++) {
-        rows += sums_row_count(sums, y) != 0;
+    for (uint32_t y = 0; y < file->head.field[SUMS_HEIGHT]; y++) {
+        rows += sums_row_count(&file->head, y) != 0;
     }
-    if (left != rows * row_bytes) {
-        return left < rows * row_bytes ? "the sums end too early"
-                                       : "unexpected bytes after the sums";
+    file->row = 0;
+    file->row_at = at;
+    rows *= row_bytes(file); /* < 2^33 */
+    return file->size - at < rows   ? "the sums end too early"
+           : file->size - at > rows ? "unexpected bytes after the sums"
+                                    : NULL;
+}
+
+/* Fields and ranges, whose bytes are in memory. */
+static const char *take_head(sums_file_t *file, size_t *at)
+{
+    uint8_t head[HEAD_BYTES], *ranges;
+    const char *error;
+    uint32_t count;
+
+    fetch(file, 0, head, sizeof head);
+    *at = 4;
+    error = take_fields(&file->head, head, at);
+    if (error != NULL) {
+        return error;
     }
-    sums->pixels = cli_alloc(height, (size_t)width * sizeof(ql_sum_t));
-    for (uint32_t y = 0; y < height; y++) {
-        if (sums_row_count(sums, y) != 0) {
-            take_row(sums->pixels + (size_t)width * y, width, data + *at);
-            *at += row_bytes;
+    count = bytes_get_le32(head + *at);
+    if (count > (file->size - HEAD_BYTES) / RANGE_BYTES) {
+        return "expected a number of ranges that the file can hold";
+    }
+    ranges = cli_alloc(HEAD_BYTES + (size_t)count * RANGE_BYTES, 1);
+    *at = HEAD_BYTES;
+    fetch(file, 0, ranges, HEAD_BYTES + (size_t)count * RANGE_BYTES);
+    error = take_ranges(&file->head, ranges, count, at);
+    free(ranges);
+    return error;
+}
+
+/* Everything but the rows themselves; data, or fd, and size are set. */
+static const char *open_file(sums_file_t *file, uint64_t *where)
+{
+    char magic[4];
+    const char *error;
+    size_t at = 0;
+
+    *where = 0;
+    if (file->size >= sizeof magic) {
+        fetch(file, 0, magic, sizeof magic);
+    }
+    if (file->size < sizeof magic || memcmp(magic, "QLS3", 4) != 0) {
+        return "expected a sum file (QLS3)";
+    }
+    *where = file->size;
+    if (file->size < HEAD_BYTES + CRC_BYTES) {
+        return "the file ends within its header";
+    }
+    file->size -= CRC_BYTES;
+    *where = file->size;
+    if (!is_crc_right(file)) {
+        return "the CRC-32 does not match: the file was cut or changed";
+    }
+    error = take_head(file, &at);
+    if (error == NULL) {
+        error = check_rows(file, at);
+    }
+    *where = at;
+    if (error != NULL) {
+        sums_free(&file->head);
+    }
+    return error;
+}
+
+const char *sums_open(sums_file_t *file, int fd, uint64_t size, uint64_t *where)
+{
+    memset(file, 0, sizeof *file);
+    file->fd = fd;
+    file->size = size;
+    return open_file(file, where);
+}
+
+bool sums_row(sums_file_t *file, uint32_t y, ql_sum_t *row)
+{
+    const uint32_t width = file->head.field[SUMS_WIDTH];
+    const uint8_t *bytes = (const uint8_t *)row;
+
+    if (sums_row_count(&file->head, y) == 0) {
+        return false;
+    }
+    while (file->row < y) {
+        if (sums_row_count(&file->head, file->row++) != 0) {
+            file->row_at += row_bytes(file);
         }
     }
-    return NULL;
+    while (file->row > y) {
+        if (sums_row_count(&file->head, --file->row) != 0) {
+            file->row_at -= row_bytes(file);
+        }
+    }
+    fetch(file, file->row_at, row, (size_t)row_bytes(file));
+    for (size_t i = 0; i < 3 * (size_t)width; i++) { /* in place */
+        row[i / 3].rgb[i % 3] = bytes_get_le64(bytes + 8 * i);
+    }
+    return true;
 }
 
 const char *sums_decode(
         sums_t *sums, const uint8_t *data, size_t size, size_t *where)
 {
+    sums_file_t file;
     const char *error;
-    uint32_t count;
+    uint64_t at;
+    size_t width;
 
+    memset(&file, 0, sizeof file);
     memset(sums, 0, sizeof *sums);
-    *where = 0;
-    if (size < 4 || memcmp(data, "QLS3", 4) != 0) {
-        return "expected a sum file (QLS3)";
-    }
-    *where = size;
-    if (size < HEAD_BYTES + CRC_BYTES) {
-        return "the file ends within its header";
-    }
-    size -= CRC_BYTES;
-    if (bytes_get_le32(data + size) != ql_crc32(0, data, size)) {
-        *where = size;
-        return "the CRC-32 does not match: the file was cut or changed";
-    }
-    *where = 4;
-    error = take_fields(sums, data, where);
-    if (error != NULL) {
-        return error;
-    }
-    count = bytes_get_le32(data + *where);
-    if (count > SUMS_RANGE_MAX || count > (size - HEAD_BYTES) / RANGE_BYTES) {
-        return "expected a number of ranges that the file can hold";
-    }
-    *where = HEAD_BYTES;
-    error = take_ranges(sums, data, count, where);
+    file.data = data;
+    file.size = size;
+    error = open_file(&file, &at);
+    *where = (size_t)at;
     if (error == NULL) {
-        error = take_rows(sums, data, size - *where, where);
-    }
-    if (error != NULL) {
-        sums_free(sums);
+        *sums = file.head;
+        width = sums->field[SUMS_WIDTH];
+        sums->pixels =
+                cli_alloc(sums->field[SUMS_HEIGHT], width * sizeof(ql_sum_t));
+        for (uint32_t y = 0; y < sums->field[SUMS_HEIGHT]; y++) {
+            (void)sums_row(&file, y, sums->pixels + width * y);
+        }
     }
     return error;
 }
 
-void sums_read(sums_t *sums, const char *path)
-{
-    size_t size, where;
-    uint8_t *data = cli_read(path, &size);
-    const char *error = sums_decode(sums, data, size, &where);
-
-    if (error != NULL) {
-        cli_fail(CLI_INPUT, "%s: byte %zu: %s", path, where, error);
-    }
-    free(data);
-}
-
 /* ---- Write ------------------------------------------------------------- */
 
-typedef struct {
-    FILE *file;
-    uint32_t crc;
-} checked_t;
-
-static void put_bytes(checked_t *to, const uint8_t *bytes, size_t size)
+static void put_bytes(sums_writer_t *to, const uint8_t *bytes, size_t size)
 {
     to->crc = ql_crc32(to->crc, bytes, size);
     fwrite(bytes, 1, size, to->file);
 }
 
-static void put_le32(checked_t *to, uint32_t value)
+static void put_le32(sums_writer_t *to, uint32_t value)
 {
     uint8_t bytes[4];
 
@@ -364,7 +458,25 @@ static void put_le32(checked_t *to, uint32_t value)
     put_bytes(to, bytes, sizeof bytes);
 }
 
-static void put_row(checked_t *to, const ql_sum_t *row, uint32_t width)
+void sums_write_head(sums_writer_t *to, sums_t *sums, cli_out_t *out)
+{
+    to->file = out->file;
+    to->crc = 0;
+    join_ranges(sums);
+    put_bytes(to, (const uint8_t *)"QLS3", 4);
+    for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
+        put_le32(to, sums->field[i]);
+    }
+    put_le32(to, sums->range_count);
+    for (uint32_t i = 0; i < sums->range_count; i++) {
+        put_le32(to, sums->ranges[i].row_first);
+        put_le32(to, sums->ranges[i].row_end);
+        put_le32(to, sums->ranges[i].sample_first);
+        put_le32(to, sums->ranges[i].sample_end);
+    }
+}
+
+void sums_write_row(sums_writer_t *to, const ql_sum_t *row, uint32_t width)
 {
     for (size_t i = 0; i < 3 * (size_t)width; i++) {
         const uint64_t sum = row[i / 3].rgb[i % 3];
@@ -373,27 +485,21 @@ static void put_row(checked_t *to, const ql_sum_t *row, uint32_t width)
     }
 }
 
+void sums_write_end(sums_writer_t *to)
+{
+    put_le32(to, to->crc);
+}
+
 void sums_write(sums_t *sums, cli_out_t *out)
 {
     const uint32_t width = sums->field[SUMS_WIDTH];
-    checked_t to = {out->file, 0};
+    sums_writer_t to;
 
-    join_ranges(sums);
-    put_bytes(&to, (const uint8_t *)"QLS3", 4);
-    for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
-        put_le32(&to, sums->field[i]);
-    }
-    put_le32(&to, sums->range_count);
-    for (uint32_t i = 0; i < sums->range_count; i++) {
-        put_le32(&to, sums->ranges[i].row_first);
-        put_le32(&to, sums->ranges[i].row_end);
-        put_le32(&to, sums->ranges[i].sample_first);
-        put_le32(&to, sums->ranges[i].sample_end);
-    }
+    sums_write_head(&to, sums, out);
     for (uint32_t y = 0; y < sums->field[SUMS_HEIGHT]; y++) {
         if (sums_row_count(sums, y) != 0) {
-            put_row(&to, sums->pixels + (size_t)width * y, width);
+            sums_write_row(&to, sums->pixels + (size_t)width * y, width);
         }
     }
-    put_le32(&to, to.crc);
+    sums_write_end(&to);
 }

@@ -22,8 +22,6 @@
 #include "lib/program/cli.h"
 #include "film/ql_film.h"
 
-#define SUMS_RANGE_MAX 65536u
-
 /* What parts must have in common: name, text, smallest, largest. Signed fields
  * are two's complement. */
 #define SUMS_FIELD_LIST(X)                                                     \
@@ -74,7 +72,7 @@ void sums_new(sums_t *sums);
 void sums_free(sums_t *sums);
 
 /* Say that the pixels now hold a range too. False if one of its samples is
- * there already, or there are too many ranges; clash then names it. */
+ * there already; clash then names it. */
 bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash);
 
 /* Samples in each pixel of a row. */
@@ -87,11 +85,45 @@ void sums_own_counts(sums_t *sums);
 const char *sums_decode(
         sums_t *sums, const uint8_t *data, size_t size, size_t *where);
 
-/* Read a file; cli_fail(CLI_IO) or cli_fail(CLI_INPUT) with the byte offset. */
-void sums_read(sums_t *sums, const char *path);
+/* A sum file that is open. Its rows are read one by one, so that a picture may
+ * be larger than memory. */
+typedef struct {
+    sums_t head;         /* fields and ranges; no pixels */
+    const uint8_t *data; /* all bytes, or NULL: */
+    int fd;              /* which can seek */
+    uint64_t size;
+    uint32_t row; /* whose bytes are at row_at */
+    uint64_t row_at;
+} sums_file_t;
+
+/* Open a file: its check value, fields and ranges are found right.
+ *
+ *   file    -      out: its head is to be freed if this succeeds
+ *   fd      -      can seek, and stays open as long as rows are read
+ *   size    bytes  of the file
+ *   where   bytes  out: offset of what is wrong
+ *   return  NULL, or what was expected there; cli_fail(CLI_IO) if it cannot be
+ *           read
+ */
+const char *sums_open(
+        sums_file_t *file, int fd, uint64_t size, uint64_t *where);
+
+/* Read a row of width pixels; false and nothing if no range holds it. The next
+ * one above or below is found at once. */
+bool sums_row(sums_file_t *file, uint32_t y, ql_sum_t *row);
 
 /* Write into an open file, ranges sorted and joined; counts is NULL. */
 void sums_write(sums_t *sums, cli_out_t *out);
+
+/* The same piece by piece: the head, each row that a range holds, the end. */
+typedef struct {
+    FILE *file;
+    uint32_t crc;
+} sums_writer_t;
+
+void sums_write_head(sums_writer_t *to, sums_t *sums, cli_out_t *out);
+void sums_write_row(sums_writer_t *to, const ql_sum_t *row, uint32_t width);
+void sums_write_end(sums_writer_t *to);
 
 /* The first field in which two parts differ, SUMS_FIELD_COUNT if none. */
 unsigned sums_compare(const sums_t *a, const sums_t *b);
