@@ -7,9 +7,9 @@
 
 /* Do pixels end by themselves, before spp samples? */
 #if QL_CFG_ADAPTIVE
-#define IS_ADAPTIVE(settings) ((uint8_t)((settings)->error_q16 != 0))
+#define IS_ADAPTIVE(settings) ((uint32_t)((settings)->error_q16 != 0))
 #else
-#define IS_ADAPTIVE(settings) ((uint8_t)0)
+#define IS_ADAPTIVE(settings) UINT32_C(0)
 #endif
 
 static uint8_t *put16(uint8_t *at, uint16_t value)
@@ -44,9 +44,8 @@ uint16_t ql_stream_head(
 
     at = put16(at, settings->width);
     at = put16(at, settings->height);
-    *at++ = (uint8_t)format; /* below QL_FORMAT_COUNT */
-    *at++ = IS_ADAPTIVE(settings);
-    at = put16(at, 0);
+    /* two bytes, then two of zero */
+    at = put32(at, (uint32_t)format | IS_ADAPTIVE(settings) << 8);
     at = put32(at, settings->spp);
     put32(at, settings->seed);
     return seal(frame, QL_STREAM_HEAD, QL_STREAM_HEAD_BYTES);
