@@ -5,13 +5,6 @@
 
 #include "base/ql_crc.h"
 
-/* Do pixels end by themselves, before spp samples? */
-#if QL_CFG_ADAPTIVE
-#define IS_ADAPTIVE(settings) ((uint32_t)((settings)->error_q16 != 0))
-#else
-#define IS_ADAPTIVE(settings) UINT32_C(0)
-#endif
-
 static uint8_t *put16(uint8_t *at, uint16_t value)
 {
     at[0] = (uint8_t)(value & 0xffu);
@@ -44,8 +37,7 @@ uint16_t ql_stream_head(
 
     at = put16(at, settings->width);
     at = put16(at, settings->height);
-    /* two bytes, then two of zero */
-    at = put32(at, (uint32_t)format | IS_ADAPTIVE(settings) << 8);
+    at = put32(at, (uint32_t)format); /* a byte, then three zero bytes */
     at = put32(at, settings->spp);
     put32(at, settings->seed);
     return seal(frame, QL_STREAM_HEAD, QL_STREAM_HEAD_BYTES);

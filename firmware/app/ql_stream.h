@@ -9,9 +9,8 @@
  *     5  n  payload
  *   5+n  4  crc32   of type, size and payload
  *
- * H begins a picture: width u16, height u16, format u8 (ql_format_t), adaptive
- *   u8 (1: pixels end by themselves, after spp samples at most), 2 zero bytes,
- *   spp u32, seed u32.
+ * H begins a picture: width u16, height u16, format u8 (ql_format_t), 3 zero
+ *   bytes, spp u32, seed u32.
  * L is one line: y u16, then QL_LINE_BYTES(width, format) bytes. Any order.
  * E ends it: status i32, paths u32, closest rays u32, shadow rays u32,
  *   saturated u32, ticks u32, tick_hz u32, faint u32.

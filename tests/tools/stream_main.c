@@ -3,13 +3,12 @@
 
 /* usage: stream FORMAT WIDTH HEIGHT [status N] [flip BYTE] [cut BYTE]
  *               [drop LINE] [twice LINE] [noise] [ticks N] [hz N] [beyond Y]
- *               [shade N] [seed N] [paths N] [error N] > stream
+ *               [shade N] [seed N] [paths N] > stream
  * The picture is red = x, green = y, blue = x ^ y in RGB888; in other formats
  * byte i of line y is 16 y + i; shade adds N to each. The paths are those of
- * its pixels unless told; error N says that pixels end by themselves. flip
- * inverts a byte of the stream, cut ends it before one, noise puts half frames
- * and false marks between frames, beyond sends a line of a number that the
- * picture does not have. */
+ * its pixels unless told. flip inverts a byte of the stream, cut ends it before
+ * one, noise puts half frames and false marks between frames, beyond sends a
+ * line of a number that the picture does not have. */
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -81,8 +80,6 @@ int main(int argc, char **argv)
         paths = strcmp(argv[i], "paths") == 0 ? (uint32_t)n : paths;
         settings.seed =
                 strcmp(argv[i], "seed") == 0 ? (uint32_t)n : settings.seed;
-        settings.error_q16 = strcmp(argv[i], "error") == 0 ? (uint16_t)n
-                                                           : settings.error_q16;
         end.status =
                 strcmp(argv[i], "status") == 0 ? (ql_status_t)n : end.status;
     }

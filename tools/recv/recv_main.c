@@ -86,7 +86,6 @@ typedef struct {
     ql_format_t format;
     uint8_t head[QL_STREAM_HEAD_BYTES];
     uint32_t spp, seed;
-    bool adaptive; /* its pixels end by themselves */
     size_t line_bytes;
     image_t image;           /* as bytes */
     uint8_t *lines;          /* LINE_ of each */
@@ -285,7 +284,6 @@ static void begin_picture(picture_t *picture, const uint8_t *payload)
     picture->width = bytes_get_le16(payload);
     picture->height = bytes_get_le16(payload + 2);
     picture->format = (ql_format_t)payload[4];
-    picture->adaptive = payload[5] != 0;
     picture->spp = bytes_get_le32(payload + 8);
     picture->seed = bytes_get_le32(payload + 12);
     picture->line_bytes = QL_LINE_BYTES(picture->width, picture->format);
@@ -461,21 +459,20 @@ static void list_lines(const picture_t *picture, int state, const char *what)
     }
 }
 
-/* The board counts its paths; one that was stopped, or has no counters, says
- * nothing. Its pixels have spp of them, or fewer if they end by themselves. */
+/* The board counts its paths, unless it has no counters. A pixel has at most spp
+ * of them: a camera ray that passes the scene by begins none. */
 static void check_paths(const picture_t *picture, const char *path)
 {
     const uint32_t paths = picture->end[1];
     /* < 2^53; the board's counter goes round at 2^32 */
     const uint64_t all =
             (uint64_t)picture->width * picture->height * picture->spp;
-    const bool fewer = picture->adaptive && (all > UINT32_MAX || paths < all);
 
-    if (picture->ended && picture->end[0] == QL_OK && paths != 0 &&
-            paths != (uint32_t)all && !fewer) {
+    if (picture->ended && paths > all) {
         cli_fail(CLI_INPUT,
                 "%s: the last frame counts %lu paths, but %u x %u pixels of "
-                "%lu samples have %llu: the stream has parts of two pictures; "
+                "%lu samples have %llu at most: the stream has parts of two "
+                "pictures; "
                 "nothing was written",
                 path, (unsigned long)paths, picture->width, picture->height,
                 (unsigned long)picture->spp, (unsigned long long)all);
