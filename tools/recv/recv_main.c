@@ -459,8 +459,8 @@ static void list_lines(const picture_t *picture, int state, const char *what)
     }
 }
 
-/* The board counts its paths, unless it has no counters. A pixel has at most spp
- * of them: a camera ray that passes the scene by begins none. */
+/* The board counts its paths, unless it has no counters. A pixel has spp of
+ * them at most: a camera ray that passes the scene by begins none. */
 static void check_paths(const picture_t *picture, const char *path)
 {
     const uint32_t paths = picture->end[1];
