@@ -51,7 +51,7 @@ static ql_real_t pi_times(ql_real_t a, int32_t shift)
 
 /* ---- A point of its area ----------------------------------------------- */
 
-static bool sample_area(const ql_blob_sphere_t *sphere, ql_vec3_t offset,
+static bool sample_sphere(const ql_blob_sphere_t *sphere, ql_vec3_t offset,
         int64_t side, const ql_surface_t *surface, ql_uniform2_t u,
         ql_emit_sample_t *sample)
 {
@@ -166,7 +166,7 @@ bool ql_emit_sphere_sample(const ql_scene_t *scene, ql_direct_t direct,
         return false;
     }
     if (side != 0 && ql_emit_is_by(direct, QL_DIRECT_AREA)) {
-        return sample_area(sphere, offset, side, surface, u, sample);
+        return sample_sphere(sphere, offset, side, surface, u, sample);
     }
     if (side > 0) {
         return sample_cone(sphere, offset, surface, u, sample);

@@ -61,7 +61,7 @@ static ql_real_t area_inv_pdf(uint64_t facing, ql_real_t below)
             2 * QL_POS_BITS - 1);
 }
 
-static bool sample_area(const ql_scene_t *scene, uint16_t light,
+static bool sample_triangle(const ql_scene_t *scene, uint16_t light,
         const ql_surface_t *surface, ql_uniform2_t u, ql_emit_sample_t *sample)
 {
     ql_emit_point_t point;
@@ -206,5 +206,5 @@ bool ql_emit_triangle_sample(const ql_scene_t *scene, ql_direct_t direct,
             return seen == SEEN_DRAWN;
         }
     }
-    return sample_area(scene, light, surface, u, sample);
+    return sample_triangle(scene, light, surface, u, sample);
 }

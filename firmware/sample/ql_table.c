@@ -4,7 +4,7 @@
 #include "sample/ql_table.h"
 
 /* c_i; the bound of a cell in use. */
-static uint32_t bound_of(const uint16_t *row, uint32_t cell)
+static uint32_t begin_of(const uint16_t *row, uint32_t cell)
 {
     return cell == 0 ? 0 : (uint32_t)QL_LE16(row[cell]);
 }
@@ -20,7 +20,7 @@ static uint32_t end_of(const uint16_t *row, uint32_t cell)
 static uint32_t mass_of(const uint16_t *row, uint32_t cell)
 {
     return cell < (uint32_t)QL_LE16(row[0])
-                   ? end_of(row, cell) - bound_of(row, cell)
+                   ? end_of(row, cell) - begin_of(row, cell)
                    : 0;
 }
 
@@ -131,8 +131,8 @@ uint16_t ql_table_pick(
     }
 
     /* c_low <= v < c_(low+1) in whatever row, so the mass is 1 or more. */
-    *mass = end_of(row, low) - bound_of(row, low);
-    within = u - (bound_of(row, low) << 16); /* < mass 2^16 */
+    *mass = end_of(row, low) - begin_of(row, low);
+    within = u - (begin_of(row, low) << 16); /* < mass 2^16 */
 
     /* floor((within + 1/2) 2^16 / mass), digit by digit in base 2^16: both
      * quotients are below 2^16, and the remainder is below mass <= 2^16 */

@@ -9,7 +9,7 @@
 
 /* Both halves, each below 2^62 in size, and what ql_warp_plane_disk() may err
  * by. */
-static uint64_t reach_of(int64_t first, int64_t second)
+static uint64_t disk_reach(int64_t first, int64_t second)
 {
     const uint64_t sum = ql_abs64(first) + ql_abs64(second);
 
@@ -21,7 +21,7 @@ uint64_t ql_lens_origin_reach(const ql_scene_t *scene, unsigned axis)
     const ql_blob_lens_t *lens = scene->lens;
 
     return lens == NULL ? 0
-                        : reach_of(ql_blob_wide(lens->p[0][axis]),
+                        : disk_reach(ql_blob_wide(lens->p[0][axis]),
                                   ql_blob_wide(lens->p[1][axis]));
 }
 
@@ -30,7 +30,7 @@ uint64_t ql_lens_direction_reach(const ql_scene_t *scene, unsigned axis)
     const ql_blob_lens_t *lens = scene->lens;
 
     return lens == NULL ? 0
-                        : reach_of(ql_blob_narrow(lens->d[0][axis]),
+                        : disk_reach(ql_blob_narrow(lens->d[0][axis]),
                                   ql_blob_narrow(lens->d[1][axis]));
 }
 

@@ -34,7 +34,7 @@ static QL_NOINLINE ql_vec3_t vector_times_real(ql_vec3_t v, ql_real_t by)
 }
 
 /* (x a + y b) 2^-32, to nearest, of s2.29 vectors; x and y below 2^32. */
-static QL_NOINLINE int32_t blend(int32_t a, int64_t x, int32_t b, int64_t y)
+static QL_NOINLINE int32_t combine(int32_t a, int64_t x, int32_t b, int64_t y)
 {
     /* each product is below 2^62 */
     return (int32_t)ql_asr64(a * x + b * y + 0x80000000, 32);
@@ -239,9 +239,9 @@ static ql_vec3_t along_edge(const ql_warp_spherical_t *t, ql_real_t y)
             ql_real_mul_call(ql_real_sub(QL_REAL_ONE, ratio2), inverse));
     const int64_t s =
             ql_real_to_uq32(ql_real_scale(ql_real_mul_call(ratio, inverse), 1));
-    const ql_vec3_t r = {blend(t->a.x, far ? -x : x, t->towards_c.x, s),
-            blend(t->a.y, far ? -x : x, t->towards_c.y, s),
-            blend(t->a.z, far ? -x : x, t->towards_c.z, s)};
+    const ql_vec3_t r = {combine(t->a.x, far ? -x : x, t->towards_c.x, s),
+            combine(t->a.y, far ? -x : x, t->towards_c.y, s),
+            combine(t->a.z, far ? -x : x, t->towards_c.z, s)};
 
     return r;
 }

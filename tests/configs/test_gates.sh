@@ -155,7 +155,8 @@ if [ "${1:-}" = --triples ]; then
     count=0
     while read -r row; do
         compile "$work/core" "$(echo "$row" | sed 's/[^ ]*/-D&/g')" \
-            "$root"/firmware/*/*.c "$root"/firmware/*/*/*.c 2> "$work/errors" &&
+            "$root"/firmware/qlux.c "$root"/firmware/app/*.c \
+            2> "$work/errors" &&
             wrong_symbols "$work/core" > "$work/errors" &&
             [ ! -s "$work/errors" ] && continue
         count=$((count + 1))

@@ -47,6 +47,15 @@ bad=$(grep -nE '\b(float|double|malloc|calloc|realloc|free)\b' \
     grep -vE ':[0-9]+:[[:space:]]*(\*|/\*|//)')
 say_none the_core_names_no_floating_point_type_and_no_heap "$bad"
 
+# Sorted, because qlux.c has them in the order of the layers.
+mkdir -p "${BUILD:-build}"
+for f in firmware/*/*.c firmware/*/*/*.c; do
+    echo "${f#firmware/}"
+done | grep -v '^app/' | sort > "${BUILD:-build}/core.files"
+bad=$(sed -n 's/^#include "\(.*\)"$/\1/p' firmware/qlux.c | sort |
+    diff - "${BUILD:-build}/core.files")
+say_none qlux_c_has_every_file_of_the_core_once "$bad"
+
 # Folder, and what its files may include beside files of that folder.
 rules='
 firmware/app/  ^firmware/|^hal/ql_hal.h

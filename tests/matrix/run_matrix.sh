@@ -69,17 +69,10 @@ compile()
     )
 }
 
+# The core in one piece: half the time of compiling its files one by one.
 compile_core() # DIR COMPILER FLAGS
 {
-    dir=$1 compiler=$2 flags=$3
-    set --
-    for file in "$root"/firmware/*/*.c "$root"/firmware/*/*/*.c; do
-        case $file in
-        */app/*) ;;
-        *) set -- "$@" "$file" ;;
-        esac
-    done
-    compile "$dir" "$compiler" "$flags" "$@"
+    compile "$1" "$2" "$3" "$root/firmware/qlux.c"
 }
 
 # link PROGRAM SOURCE FLAGS [LINK-FLAGS]: with the core; it alone is optimised

@@ -102,7 +102,7 @@ void ql_sky_map_radiance(const ql_scene_t *scene, ql_vec3_t d,
 }
 
 /* Product of two s1.30, s2.29 to nearest; below 2^61. */
-static ql_q29_t multiply(int32_t a, int32_t b)
+static ql_q29_t times_q29(int32_t a, int32_t b)
 {
     return (ql_q29_t)ql_asr64(ql_asr64((int64_t)a * b, 30) + 1, 1);
 }
@@ -122,9 +122,9 @@ ql_real_t ql_sky_map_sample(const ql_scene_t *scene, ql_uq32_t u1, ql_uq32_t u2,
     v = point.x[1];
     ql_sincos(v >> 1, &sin_theta, &cos_theta);
     ql_sincos(point.x[0] + QL_LE32(scene->sky->rotate), &sine, &cosine);
-    w->x = multiply(sin_theta, sine);
+    w->x = times_q29(sin_theta, sine);
     w->y = ql_asr32(cos_theta + 1, 1);
-    w->z = multiply(sin_theta, cosine);
+    w->z = times_q29(sin_theta, cosine);
 
     /* the sine of ql_sincos() is not good enough near the poles: from the
      * nearer one, at the midpoint of v, so never 0 */
