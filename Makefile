@@ -87,8 +87,9 @@ endif
 
 sim_src := $(sort $(filter-out sim/sim_hal.c sim/sim_fault.c, \
     $(wildcard sim/*.c)))
-sim_of = $(patsubst %.c,$O/$1/%.o,$(sim_src) $(core_src)) $(io) $O/flags/link \
-    $O/flags/sources
+# What of the tools opens scenes has the gates of the core that it is linked to.
+sim_of = $(patsubst %.c,$O/$1/%.o,$(sim_src) tools/lib/render/open_blob.c \
+    $(core_src)) $(io) $O/flags/link $O/flags/sources
 
 $O/qlux-sim$(tables): $(call sim_of,fine$(tables))
 	$(link)

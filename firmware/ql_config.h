@@ -235,6 +235,37 @@
 #error "QL_CFG_ASSERT: use 0 or 1"
 #endif
 
+/* Program and core must have the same gates: with others structs have other
+ * members, and inline functions give other bits. So the functions of qlux.h
+ * have the gates in their names, and a program with others does not link:
+ *
+ *     undefined reference to `ql_blob_open_precision071_nodes111_lights11_...'
+ *
+ * The digits are the gates in the order of this file, in groups that begin with
+ * the one named; nm shows those of the core. So a gate is a plain number. */
+#define QL_GATED(name)                                                         \
+    QL_JOIN(name, QL_GATES_1, QL_GATES_2, QL_GATES_3, QL_GATES_4, QL_GATES_5,  \
+            QL_GATES_6, QL_GATES_7)
+#define QL_GATES_1                                                             \
+    QL_JOIN(_precision, QL_CFG_PRECISION, QL_CFG_TABLE_BITS,                   \
+            QL_CFG_TABLE_LERP, , , , )
+#define QL_GATES_2                                                             \
+    QL_JOIN(_nodes, QL_CFG_NODE16, QL_CFG_NODE8, QL_CFG_PAGES, , , , )
+#define QL_GATES_3 QL_JOIN(_lights, QL_CFG_LIGHTS, QL_CFG_TWO_SIDED, , , , , )
+#define QL_GATES_4                                                             \
+    QL_JOIN(_spheres, QL_CFG_SPHERES, QL_CFG_SMOOTH, QL_CFG_PHONG,             \
+            QL_CFG_MIRROR, QL_CFG_GLASS, , )
+#define QL_GATES_5                                                             \
+    QL_JOIN(_sky, QL_CFG_SKY, QL_CFG_SKY_MAP, QL_CFG_TABLES, QL_CFG_LENS, , , )
+#define QL_GATES_6                                                             \
+    QL_JOIN(_strategies, QL_CFG_STRATEGIES, QL_CFG_ADAPTIVE, QL_CFG_INDIRECT,  \
+            QL_CFG_SAMPLERS, QL_CFG_FORMATS, QL_CFG_PANEL, )
+#define QL_GATES_7                                                             \
+    QL_JOIN(_small, QL_CFG_SMALL, QL_CFG_DIAG, QL_CFG_BVH_STACK,               \
+            QL_CFG_ASSERT, , , )
+#define QL_JOIN(a, b, c, d, e, f, g, h)  QL_JOIN_(a, b, c, d, e, f, g, h)
+#define QL_JOIN_(a, b, c, d, e, f, g, h) a##b##c##d##e##f##g##h
+
 /* Does anything rely on unit normals? Points of triangles, seen from flat
  * diffuse surfaces, do not. */
 #define QL_UNIT_NORMALS                                                        \

@@ -30,6 +30,18 @@
 #include "blob/ql_blob_open.h"
 #include "render/ql_line.h"
 
-#define QLUX_VERSION "0.1.0"
+/* Numbers for #if, major * 65536 + minor * 256 + patch in one; and text. */
+#define QLUX_VERSION_MAJOR 0
+#define QLUX_VERSION_MINOR 1
+#define QLUX_VERSION_PATCH 0
+#define QLUX_VERSION_NUMBER                                                    \
+    (QLUX_VERSION_MAJOR * 65536l + QLUX_VERSION_MINOR * 256 +                  \
+            QLUX_VERSION_PATCH)
+#define QLUX_VERSION                                                           \
+    QLUX_VERSION_TEXT(                                                         \
+            QLUX_VERSION_MAJOR, QLUX_VERSION_MINOR, QLUX_VERSION_PATCH)
+#define QLUX_VERSION_TEXT(major, minor, patch)                                 \
+    QLUX_VERSION_TEXT_(major, minor, patch)
+#define QLUX_VERSION_TEXT_(major, minor, patch) #major "." #minor "." #patch
 
 #endif

@@ -9,3 +9,5 @@ ql_blob_begin:
     .incbin QL_BLOB_FILE
     .balign 4
 ql_blob_end:
+
+    .section .note.GNU-stack, "", %progbits

@@ -11,6 +11,8 @@
 #include "base/ql_base.h"
 #include "base/ql_format.h"
 
+QL_C_BEGIN
+
 /* What the board's panel shows. width 0 means there is no panel. */
 typedef struct {
     uint16_t width; /* px */
@@ -50,5 +52,7 @@ void ql_hal_exit(ql_status_t status);
 
 /* Our own code is wrong at code/line: report it as the board can, then stop. */
 void ql_hal_panic(uint16_t code, uint16_t line);
+
+QL_C_END
 
 #endif

@@ -35,7 +35,7 @@ parts()
 {
     cat << 'END'
 ^matrix/|every compiler and processor: same bits, no float, no state
-^configs/|gates: pairs and triples are all there, build and link
+^(configs|library)/|gates: pairs and triples are all there, build and link
 ^golden/|gates change no bit of a picture
 ^boards|boards draw the simulator's bits; panel, stack, faults; budgets
 ^bench|the float rival on this PC

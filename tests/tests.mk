@@ -145,6 +145,7 @@ jobs_mutants := $(foreach k,1 2 3 4,mutants/$k-of-4|tests/mutants/run.sh \
 whole := $(foreach c,fine draft,$O/test/$(c)/golden/golden)
 jobs_matrix = $(shell tests/matrix/run_matrix.sh --jobs) \
     extreme/programs|tests/extreme/extreme_programs.sh; \
+    library/library|tests/library/test_library.sh; \
     golden/whole|tests/golden/some.sh fine draft;
 
 # What scripts run beside the programs.

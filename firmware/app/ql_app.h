@@ -13,6 +13,11 @@
 #include "ql_hal.h"
 #include "qlux.h"
 
+QL_C_BEGIN
+
+/* Links with firmware of the same gates only (ql_config.h). */
+#define ql_app_run QL_GATED(ql_app_run)
+
 #define QL_APP_MAX(a, b) ((a) > (b) ? (a) : (b))
 
 /* Bytes of working memory of one run: one frame, and one line of the panel.
@@ -47,5 +52,7 @@ typedef struct {
  *           any status of ql_blob_open()
  */
 ql_status_t ql_app_run(const ql_app_t *app);
+
+QL_C_END
 
 #endif

@@ -11,6 +11,8 @@
 #include "ql_hal.h"
 #include "qlux.h"
 
+QL_C_BEGIN
+
 /* Bytes of working memory for a picture of this width; 0 without a panel, whose
  * width is 0. Constant when its arguments are. */
 #define QL_PANEL_BYTES(width, panel_width, panel_format)                       \
@@ -87,5 +89,7 @@ QL_INLINE ql_status_t ql_panel_line(
     return (void)panel, (void)y, (void)rows, QL_OK;
 }
 #endif
+
+QL_C_END
 
 #endif

@@ -22,6 +22,8 @@
 
 #include "render/ql_line.h"
 
+QL_C_BEGIN
+
 #define QL_STREAM_MARK0                0xa5u
 #define QL_STREAM_MARK1                0x5au
 #define QL_STREAM_HEAD                 'H'
@@ -76,5 +78,7 @@ typedef struct {
  *   return  bytes of the frame
  */
 uint16_t ql_stream_end(uint8_t *frame, const ql_stream_end_t *end);
+
+QL_C_END
 
 #endif

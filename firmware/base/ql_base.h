@@ -10,6 +10,17 @@
 
 #include "ql_config.h"
 
+/* Between these a C++ compiler sees C functions. */
+#ifdef __cplusplus
+#define QL_C_BEGIN extern "C" {
+#define QL_C_END   }
+#else
+#define QL_C_BEGIN
+#define QL_C_END
+#endif
+
+QL_C_BEGIN
+
 /* Every status: name, number, text. Numbers are never reused. */
 #define QL_STATUS_LIST(X)                                                      \
     X(QL_OK, 0, "done")                                                        \
@@ -173,5 +184,7 @@ QL_INLINE unsigned ql_clz64(uint64_t x)
     const uint32_t high = (uint32_t)(x >> 32);
     return high != 0 ? ql_clz32(high) : 32u + ql_clz32((uint32_t)x);
 }
+
+QL_C_END
 
 #endif

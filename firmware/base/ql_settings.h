@@ -79,13 +79,15 @@ typedef struct {
  *   part  -  0, or from 0.00001 to 0.9999 */
 #define QL_ERROR_Q16(part) ((uint16_t)((part)*65536 + 0.5))
 
-/* Sobol points and 4 bounces, or what there is of them in the build. */
+/* The scene's size, 16 samples, seed 0, Sobol points and 4 bounces, or what
+ * there is of them in the build, one light by area and power, the BRDF; in the
+ * order of the struct, as C++ wants it. */
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \
-        .spp = 16, .bounces = QL_CFG_INDIRECT ? 4 : 0,                         \
-        .sampler = QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM, \
-        .direct = QL_DIRECT_AREA, .indirect = QL_INDIRECT_BRDF,                \
-        .lights = QL_LIGHTS_POWER, .light_samples = 1                          \
+        0, 0, 16, 0, QL_CFG_INDIRECT ? 4 : 0,                                  \
+                QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM,    \
+                QL_DIRECT_AREA, QL_INDIRECT_BRDF, QL_LIGHTS_POWER, 1, 0,       \
+                QL_IF_BUILT(QL_CFG_ADAPTIVE, 0)                                \
     }
 
 #endif

@@ -6,6 +6,11 @@
 
 #include "scene/ql_scene.h"
 
+QL_C_BEGIN
+
+/* Links with a core of the same gates only (ql_config.h). */
+#define ql_blob_open QL_GATED(ql_blob_open)
+
 /* Check a scene blob and open a read-only view of it, in place.
  *
  *   scene   -      out: the view; all zero if this fails
@@ -39,5 +44,7 @@ QL_MUST_CHECK ql_status_t ql_blob_open(
  *   return  the feature's name, "unknown" for a bit without one; "" if none
  */
 const char *ql_blob_missing(const void *blob);
+
+QL_C_END
 
 #endif

@@ -7,6 +7,8 @@
 #include "base/ql_diag.h"
 #include "math/ql_real.h"
 
+QL_C_BEGIN
+
 /* Fraction bits of a sum: one radiance unit is 2^24. */
 #define QL_SUM_BITS 24
 
@@ -57,5 +59,7 @@ void ql_film_display(const ql_sum_t *sum, uint32_t samples, ql_real_t exposure,
 
 /* 2^(radiance_exp + exposure_q8 / 256) as a real. */
 ql_real_t ql_film_exposure(int16_t radiance_exp, int16_t exposure_q8);
+
+QL_C_END
 
 #endif

@@ -7,6 +7,8 @@
 #include "base/ql_format.h"
 #include "film/ql_film.h"
 
+QL_C_BEGIN
+
 /* Encode one pixel of a line.
  *
  *   pixels    -       out: the line; the GRAY4 neighbour is kept
@@ -19,5 +21,7 @@
  */
 void ql_tonemap_pixel(uint8_t *pixels, ql_format_t format, uint16_t x,
         uint16_t y, const ql_uq16_t linear[3]);
+
+QL_C_END
 
 #endif

@@ -63,6 +63,8 @@ typedef uint32_t ql_turn32_t;
 #include "math/ql_fx_halves.h"
 #endif
 
+QL_C_BEGIN
+
 /* Multiply a 64-bit number by a 16-bit one.
  *
  *   a       -  any
@@ -90,5 +92,7 @@ QL_INLINE int64_t ql_mul_s64_u16(int64_t a, uint16_t b)
  * Exact. Cost: 64 steps of a loop; for setting up, not for rays.
  */
 int64_t ql_div_s64_u16(int64_t a, uint16_t b);
+
+QL_C_END
 
 #endif

@@ -12,6 +12,8 @@
 #include "math/lut/ql_lut.h"
 #include "math/ql_real_type.h"
 
+QL_C_BEGIN
+
 /* The number n, cut to its 32 highest bits: relative error in (-2^-31, 0]. */
 QL_INLINE ql_real_t ql_real_from_u64(uint64_t n);
 
@@ -173,5 +175,7 @@ static inline ql_uq32_t ql_sqrt_uq32_of_real(ql_real_t a)
     half = half < 0x80000000u ? half << 1 : 0xffffffffu;
     return half >> (shift / 2);
 }
+
+QL_C_END
 
 #endif

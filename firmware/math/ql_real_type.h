@@ -8,6 +8,8 @@
 
 #include "math/ql_fx.h"
 
+QL_C_BEGIN
+
 typedef struct {
     uint32_t m;
     int16_t e;
@@ -79,5 +81,7 @@ QL_INLINE bool ql_real_less(ql_real_t a, ql_real_t b)
  * From:  Newton's method, r' = r (2 - m r), twice from 7.9 bits.
  */
 uint32_t ql_recip_m(uint32_t m);
+
+QL_C_END
 
 #endif

@@ -9,6 +9,15 @@
 #include "scene/ql_camera.h"
 #include "base/ql_settings.h"
 
+QL_C_BEGIN
+
+/* They link with a core of the same gates only (ql_config.h). */
+#define ql_render_init     QL_GATED(ql_render_init)
+#define ql_render_pixel    QL_GATED(ql_render_pixel)
+#define ql_render_adaptive QL_GATED(ql_render_adaptive)
+#define ql_render_encode   QL_GATED(ql_render_encode)
+#define ql_render_line     QL_GATED(ql_render_line)
+
 /* A scene made ready to render with some settings. */
 typedef struct {
     const ql_scene_t *scene;
@@ -95,5 +104,7 @@ void ql_render_encode(const ql_render_t *render, uint16_t x, uint16_t y,
  */
 void ql_render_line(ql_render_t *render, uint16_t y, const ql_output_t *outputs,
         uint8_t count);
+
+QL_C_END
 
 #endif

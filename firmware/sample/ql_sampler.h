@@ -11,6 +11,8 @@
 #include "base/ql_settings.h"
 #include "math/ql_fx.h"
 
+QL_C_BEGIN
+
 /* Pairs of dimensions. Those of bounce k are QL_DIM_BOUNCE(k) + the name, and
  * those of the next samples of emitters are QL_DIMS_A_SAMPLE apart (modulo
  * 2^32). */
@@ -81,5 +83,7 @@ QL_INLINE uint32_t ql_sampler_key(const ql_sampler_t *sampler)
  *   return        uq32  ql_sampler_2d(sampler, dim).u1
  */
 ql_uq32_t ql_sampler_1d(const ql_sampler_t *sampler, uint32_t dim);
+
+QL_C_END
 
 #endif

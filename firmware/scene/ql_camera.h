@@ -9,6 +9,8 @@
 #include "scene/ql_ray.h"
 #include "scene/ql_scene.h"
 
+QL_C_BEGIN
+
 /* A coordinate that is affine in the picture: at its top left corner, and its
  * steps per pixel. */
 typedef struct {
@@ -69,5 +71,7 @@ void ql_camera_pixel(ql_camera_pixel_t *pixel, const ql_camera_t *camera,
  */
 bool ql_camera_ray(const ql_camera_pixel_t *pixel, ql_uniform2_t u,
         ql_uniform2_t lens, ql_ray_t *ray);
+
+QL_C_END
 
 #endif

@@ -12,6 +12,8 @@
 #include "sample/ql_sampler.h"
 #include "scene/ql_scene.h"
 
+QL_C_BEGIN
+
 /* The lens of a camera. */
 typedef struct {
     const ql_blob_lens_t *lens; /* NULL: a pinhole */
@@ -59,5 +61,7 @@ QL_INLINE void ql_lens_move(const ql_lens_t *of, ql_uniform2_t u, int64_t at[6])
     (void)of, (void)u, (void)at;
 }
 #endif
+
+QL_C_END
 
 #endif

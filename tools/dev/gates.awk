@@ -36,8 +36,10 @@ function gates_read(    file, line, names, n, i, at, text)
             }
             if (line ~ /^typedef enum/)
                 at = 0
+            if (line ~ /^}/)
+                at = ""
             #     QL_DIRECT_NONE,        /* not at all */
-            if (match(line, /^ +QL_[A-Z0-9_]+,?( |$)/)) {
+            if (at != "" && match(line, /^ +QL_[A-Z0-9_]+,?( |$)/)) {
                 sub(/^ +/, "", line)
                 sub(/[, ].*/, "", line)
                 gates_number[line] = at++

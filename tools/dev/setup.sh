@@ -36,6 +36,7 @@ x86() {
 needs() {
     cat <<END
 gcc                       gcc
+g++                       g++
 gcc-arm-none-eabi         arm-none-eabi-gcc
 gcc-riscv64-unknown-elf   riscv64-unknown-elf-gcc
 gcc-avr                   avr-gcc

@@ -162,7 +162,7 @@ function program(core,    part)
 {
     split(core, part, "-")
     rule(build "/trade/error-" core, "tools/trade/trade_error.c " \
-        "$(trade_tables) $(io) $(" \
+        "tools/lib/render/open_blob.c $(trade_tables) $(io) $(" \
         part[1] ")", "trade_core",
         "-DQL_CFG_PRECISION=" (part[1] == "fine") " -DQL_CFG_TABLE_BITS=" \
         part[2] " -DQL_CFG_TABLE_LERP=" part[3])

@@ -10,8 +10,9 @@ trade-quick: ## The same of a few choices, on one core, in a minute
 	@MAKE='$(MAKE)' tools/trade/trade.sh --quick
 
 ifneq ($(TRADE_RULES),)
+# Beside these, what has the gates in its name.
 trade_tables := $(foreach l,math sample warp,$(wildcard firmware/$l/*.c \
-    firmware/$l/*/*.c))
+    firmware/$l/*/*.c)) firmware/blob/ql_blob_open.c firmware/render/ql_line.c
 # What a firmware of bench_settings.c is made of.
 CORE := $(core_src) $(wildcard firmware/app/*.c firmware/*.h firmware/*/*.h \
     firmware/*/*/*.h hal/*.h) tests/bench/bench_settings.c \

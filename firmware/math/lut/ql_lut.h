@@ -9,6 +9,8 @@
 
 #include "base/ql_base.h"
 
+QL_C_BEGIN
+
 /* sin(i / QL_SIN_CELLS quarter turns), s1.30, both ends included. */
 #define QL_SIN_BITS  QL_CFG_TABLE_BITS
 #define QL_SIN_CELLS (1 << QL_SIN_BITS)
@@ -35,5 +37,7 @@ extern const uint32_t ql_lut_log2[QL_RECIP_CELLS];
 #define QL_EXP2_BITS  6
 #define QL_EXP2_CELLS (1 << QL_EXP2_BITS)
 extern const uint32_t ql_lut_exp2[QL_EXP2_CELLS];
+
+QL_C_END
 
 #endif

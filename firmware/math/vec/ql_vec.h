@@ -10,6 +10,8 @@
 
 #include "math/ql_real.h"
 
+QL_C_BEGIN
+
 /* A vector or point; the unit is its user's. */
 typedef struct {
     int32_t x, y, z;
@@ -83,5 +85,7 @@ QL_INLINE ql_real_t ql_vec_square_pos(ql_vec3_t v)
                                                        (uint32_t)(v.z * v.z)
                                              : (uint64_t)ql_vec_dot(v, v));
 }
+
+QL_C_END
 
 #endif

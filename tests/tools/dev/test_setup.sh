@@ -101,7 +101,7 @@ says() {
     grep -qF -- "$1" "$work/said"
 }
 
-all='gcc gcc-arm-none-eabi gcc-riscv64-unknown-elf gcc-avr avr-libc
+all='gcc g++ gcc-arm-none-eabi gcc-riscv64-unknown-elf gcc-avr avr-libc
     gcc-powerpc-linux-gnu libc6-dev-powerpc-cross qemu-system-arm
     qemu-system-misc qemu-user clang clang-format valgrind gcc-12-multilib'
 most=$(echo "$all" | sed 's/avr-libc//; s/valgrind//')
@@ -157,7 +157,7 @@ say a_user_with_sudo_uses_it_for_both_steps $?
 
 machine other
 rm "$machine/bin/apt-get"
-sets_up 1 && says 'this is not Debian; install these by hand: gcc, arm-none'
+sets_up 1 && says 'this is not Debian; install these by hand: gcc, g++'
 say without_apt_programs_are_named $?
 
 # ---- other systems

@@ -7,8 +7,7 @@
 
 suite=tools/options
 . tests/support/workspace.sh
-version=$(sed -n 's/^#define QLUX_VERSION "\(.*\)"/\1/p' \
-    "$root/firmware/qlux.h")
+version=$(awk '$1 == "##" { print $2; exit }' "$root/CHANGELOG.md")
 
 # refuses PATTERN ARGUMENTS...: exit code 1, this line and no other is printed,
 # nothing is written
