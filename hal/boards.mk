@@ -37,14 +37,11 @@ board_tags += $(if $(filter 1,$(EMULATED)),emulated)
 board_name := $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
     -,$(board_tags)))$(VARIANT)
 
-# Layers in their order: link-time optimisation inlines by the order of files,
-# so the Cornell box takes 200 bytes less on a Cortex-M0 than by order of names.
-layers := base math sample warp scene blob trace material light film render \
-    app
-board_src := $(or $(FIRMWARE_SRC),$(foreach layer,$(layers),$(sort $(wildcard \
-    firmware/$(layer)/*.c firmware/$(layer)/*/*.c)))) \
-    $(sort $(filter-out hal/ql_main.c,$(wildcard hal/*.c))) $(BOARD_MAIN) \
-    hal/ql_blob_data.S $(BOARD_SRC) hal/boards/$(BOARD)/board.c
+# The core is one file, its layers in their order.
+board_src := $(or $(FIRMWARE_SRC),firmware/qlux.c $(sort $(wildcard \
+    firmware/app/*.c))) $(sort $(filter-out hal/ql_main.c,$(wildcard \
+    hal/*.c))) $(BOARD_MAIN) hal/ql_blob_data.S $(BOARD_SRC) \
+    hal/boards/$(BOARD)/board.c
 
 # A benchmark is a firmware too.
 ifneq ($(filter bench-board,$(MAKECMDGOALS)),)

@@ -129,7 +129,7 @@ shares() {
     gate=$(objects "$1" ROULETTE=1)
     note="$n, source $source, header $header, gate $gate objects"
     [ "$n" -eq 1 ] && [ "$source" -eq 2 ] && [ "$header" -gt 5 ] &&
-        [ "$gate" -gt 50 ]
+        [ "$gate" -gt "$header" ]
 }
 
 # Of cores that nothing else uses nobody reads the debug information.

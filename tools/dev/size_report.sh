@@ -43,6 +43,7 @@ sections=$("${prefix}size" -A "$elf") || exit 3
         "${prefix}addr2line" -a -e "$elf"
     "${prefix}nm" -S "$elf"
     "${prefix}objdump" -d --no-show-raw-insn "$elf"
+    "${prefix}objdump" --dwarf=rawline "$elf"
     "${prefix}objdump" --dwarf=info "$elf"
 } | awk -v root="$PWD/" -v files="$files" '
 function number(hex,    i, n) {
@@ -104,21 +105,26 @@ $1 ~ /^[0-9a-f]+:$/ && $2 ~ /^ldr/ && /\[pc/ {
         loader[target] = number($1)
     }
 }
+# Of each table of lines its folders, and its files as "3 1 0 0 ql_fx.c"
+$1 == "Offset:" { table = number($2) }
+/^ The (Directory|File Name) Table/ { entries = $2 }
+/^ (Line Number Statements|No Line)/ { entries = "" }
+entries == "Directory" && $1 ~ /^[0-9]+$/ { folder[table, $1] = $NF }
+entries == "File" && $1 ~ /^[0-9]+$/ {
+    named[table, $1] = ((table, $2) in folder ? folder[table, $2] "/" : "") $NF
+}
 # <2d><1f>: Abbrev Number: 4 (DW_TAG_variable)
 /^ *<[0-9a-f]+><[0-9a-f]+>: Abbrev/ {
     split($1, part, /[<>]+/)
     die = part[3]
-    if (part[2] == 0) {
-        unit = ""
-    }
-    file[die] = unit
 }
-/DW_AT_name/ && unit == "" { unit = $NF }
+/DW_AT_stmt_list/ { table = number($NF) }
+/DW_AT_decl_file/ { file[die] = named[table, $NF] }
 /DW_AT_(abstract_origin|specification)/ {
     gsub(/[<>]|0x/, "", $NF)
     origin[die] = $NF
 }
-# Of a variable that lies in memory; the unit that defines it may be another.
+# Of a variable that lies in memory; what tells its file may be another.
 /DW_AT_location.*\(DW_OP_addr: [0-9a-f]+\)$/ {
     sub(/\)$/, "", $NF)
     variable[number($NF)] = die
