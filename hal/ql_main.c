@@ -8,7 +8,7 @@
 /* QL_APP_WIDTH, QL_APP_HEIGHT: px. QL_APP_SPP: samples a pixel. QL_APP_SEED:
  * any. QL_APP_BOUNCES: indirect reflections. QL_APP_SAMPLER: ql_sampler_kind_t.
  * QL_APP_DIRECT, QL_APP_INDIRECT, QL_APP_LIGHTS: ql_direct_t, ql_indirect_t,
- * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter asked.
+ * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter, or directions.
  * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR: relative error of a pixel, a part of
  * 1, 0 for all samples. QL_APP_INTERLACE: px between lines of the first pass, a
  * power of two. */

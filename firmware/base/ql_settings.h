@@ -51,7 +51,7 @@ typedef struct {
     uint8_t direct;        /* ql_direct_t */
     uint8_t indirect;      /* ql_indirect_t */
     uint8_t lights;        /* ql_light_choice_t */
-    uint8_t light_samples; /* samples an emitter asked, 1..255 */
+    uint8_t light_samples; /* of each emitter asked, or directions; 1..255 */
     uint8_t roulette;      /* 0 or 1: Russian roulette */
     /* u0.16: a pixel stops at this standard error, a part of its mean; 0: it
      * takes all its samples */
@@ -74,6 +74,23 @@ typedef struct {
     NEED(STRATEGIES, roulette, 1, 1)                                           \
     BOTH(INDIRECT, bounces, 1, QL_BOUNCES_MAX, indirect, QL_INDIRECT_COSINE,   \
             QL_INDIRECT_BRDF)
+
+/* Where a setting changes no picture: a MEMBER from FIRST to LAST that is not
+ * the default, while WHERE is from FIRST to LAST. Programs and make say so, by
+ * this list.
+ *
+ *   IDLE(MEMBER, FIRST, LAST, WHERE, FIRST, LAST) */
+#define QL_SETTINGS_IDLE(IDLE)                                                 \
+    IDLE(lights, QL_LIGHTS_POWER, QL_LIGHTS_UNIFORM, direct,                   \
+            QL_DIRECT_HEMISPHERE, QL_DIRECT_COSINE)                            \
+    IDLE(lights, QL_LIGHTS_POWER, QL_LIGHTS_UNIFORM, direct, QL_DIRECT_NONE,   \
+            QL_DIRECT_NONE)                                                    \
+    IDLE(light_samples, 1, 255, direct, QL_DIRECT_NONE, QL_DIRECT_NONE)        \
+    IDLE(indirect, QL_INDIRECT_COSINE, QL_INDIRECT_BRDF, bounces, 0, 0)        \
+    IDLE(bounces, 1, QL_BOUNCES_MAX, indirect, QL_INDIRECT_NONE,               \
+            QL_INDIRECT_NONE)                                                  \
+    IDLE(roulette, 1, 1, bounces, 0, 0)                                        \
+    IDLE(roulette, 1, 1, indirect, QL_INDIRECT_NONE, QL_INDIRECT_NONE)
 
 /* error_q16 of a part of 1, rounded: on a board of a constant, by the compiler.
  *   part  -  0, or from 0.00001 to 0.9999 */

@@ -19,6 +19,18 @@ void ql_emitted_add(const ql_context_t *context, const ql_rgb_t *throughput,
             context->diag);
 }
 
+/* The part that a ray counts of the emitter that it met; as
+ * ql_mis_weight_of_ray() has it. */
+static ql_real_t counted_part(const ql_context_t *context,
+        const ql_path_ray_t *ray, const ql_blob_tri_t *tri, ql_uq30_t t)
+{
+    if (ql_plan_is_share(ray->counts)) {
+        return ql_real_recip(
+                ql_real_from_u64(context->settings->light_samples));
+    }
+    return ql_mis_weight_of_ray(context, ray, tri, t);
+}
+
 void ql_emitted_by_hit(const ql_context_t *context, const ql_path_ray_t *ray,
         const ql_hit_t *hit)
 {
@@ -32,7 +44,7 @@ void ql_emitted_by_hit(const ql_context_t *context, const ql_path_ray_t *ray,
         return;
     }
     ql_emitted_by_material(context, &ray->throughput, material,
-            ql_mis_weight_of_ray(context, ray, tri, hit->t));
+            counted_part(context, ray, tri, hit->t));
 }
 
 #if QL_CFG_SKY
@@ -45,6 +57,6 @@ void ql_emitted_by_sky(const ql_context_t *context, const ql_path_ray_t *ray)
     }
     ql_emit_sky_radiance(context->scene, ray->ray.direction, emission);
     ql_emitted_add(context, &ray->throughput, emission,
-            ql_mis_weight_of_ray(context, ray, NULL, 0));
+            counted_part(context, ray, NULL, 0));
 }
 #endif

@@ -88,17 +88,18 @@ static ql_lobes_t lobes_of(const ql_bsdf_t *bsdf)
  * or of its second. */
 typedef enum { FIRST_RAY, SECOND_RAY } numbers_t;
 
-/* Draw a ray from a vertex; false if its light is lost. ray may be the one that
- * led to the vertex: it is written last. */
+/* Draw a ray from a vertex by numbers of dim; false if its light is lost. ray
+ * may be the one that led to the vertex: it is written last. */
 static bool sample_ray(const ql_context_t *context, const ql_vertex_t *vertex,
-        const ql_plan_ray_t *plan, numbers_t numbers, ql_path_ray_t *ray)
+        const ql_plan_ray_t *plan, uint32_t dim, numbers_t numbers,
+        ql_path_ray_t *ray)
 {
     const ql_bsdf_t *bsdf = &vertex->bsdf;
     const bool by_mis = ql_plan_is_mis(plan->counts);
     const bool uniform = ql_density_is_uniform(plan->density);
     const bool first = numbers == FIRST_RAY;
-    const ql_uniform2_t u = ql_sampler_2d(context->sampler,
-            vertex->dim + (first ? QL_DIM_DIRECTION : QL_DIM_LOOK));
+    const ql_uniform2_t u = ql_sampler_2d(
+            context->sampler, dim + (first ? QL_DIM_DIRECTION : QL_DIM_LOOK));
     ql_bsdf_sample_t sample;
     ql_uq32_t pick = 0;
     ql_real_t pdf;
@@ -117,7 +118,7 @@ static bool sample_ray(const ql_context_t *context, const ql_vertex_t *vertex,
     /* Sample the BSDF: a lobe if it has two, wi, and f cos / (pmf pdf). */
     if (ql_bsdf_is_glossy(bsdf)) {
         pick = ql_sampler_1d(context->sampler,
-                vertex->dim + (first ? QL_DIM_CHOICE : QL_DIM_LOOK_CHOICE));
+                dim + (first ? QL_DIM_CHOICE : QL_DIM_LOOK_CHOICE));
     }
     if (!ql_bsdf_sample(
                 bsdf, plan->density, pick, u, &sample, by_mis ? &pdf : NULL)) {
@@ -149,17 +150,21 @@ static bool sample_ray(const ql_context_t *context, const ql_vertex_t *vertex,
     return ql_rgb_most(&ray->throughput) != 0;
 }
 
-/* Draw a ray only for emitters and count what it meets. */
-static QL_NOINLINE void trace_emitter_ray(const ql_context_t *context,
+/* Draw rays only for emitters and count what they meet. */
+static QL_NOINLINE void trace_emitter_rays(const ql_context_t *context,
         const ql_vertex_t *vertex, const ql_plan_t *plan)
 {
     const numbers_t numbers =
             plan->indirect.density == QL_DENSITY_NONE ? FIRST_RAY : SECOND_RAY;
+    uint32_t dim = vertex->dim;
     ql_path_ray_t ray;
     ql_hit_t hit;
 
-    if (sample_ray(context, vertex, &plan->emitter, numbers, &ray)) {
-        (void)trace_ray(context, &ray, &hit);
+    for (unsigned i = 0; i < plan->emitter_rays; i++) {
+        if (sample_ray(context, vertex, &plan->emitter, dim, numbers, &ray)) {
+            (void)trace_ray(context, &ray, &hit);
+        }
+        dim += QL_DIMS_A_SAMPLE;
     }
 }
 
@@ -189,17 +194,17 @@ void ql_path_trace(const ql_context_t *context, const ql_ray_t *camera_ray)
             ql_next_event(context, &vertex);
         }
 
-        /* Estimate it by a ray of its own where the plan has one. */
+        /* Estimate it by rays of its own where the plan has some. */
         plan = ql_plan_of(
                 settings, lobes, settings->bounces - bounce, specular);
         if (plan.emitter.density != QL_DENSITY_NONE) {
-            trace_emitter_ray(context, &vertex, &plan);
+            trace_emitter_rays(context, &vertex, &plan);
         }
 
         /* Sample the direction in which the path goes on. */
         if (plan.indirect.density == QL_DENSITY_NONE ||
-                !sample_ray(
-                        context, &vertex, &plan.indirect, FIRST_RAY, &ray)) {
+                !sample_ray(context, &vertex, &plan.indirect, vertex.dim,
+                        FIRST_RAY, &ray)) {
             return;
         }
         specular = specular && ray.specular;

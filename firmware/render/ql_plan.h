@@ -4,8 +4,8 @@
 /* At every vertex the light that comes straight from the emitters is counted
  * exactly once: by next-event estimation (ql_next_event.h), by a ray that meets
  * an emitter, or by both, each with its MIS weight. A vertex draws up to two
- * rays. The indirect ray leads on. The emitter ray ends at what it meets; it
- * only counts emitters.
+ * kinds of rays. The indirect ray leads on. Emitter rays end at what they meet;
+ * they only count emitters.
  *
  * D is the density of the indirect ray; the last vertex has none. E is the
  * density by which the direct strategy draws rays towards emitters:
@@ -35,8 +35,19 @@
  *                D = E         E: C        all           none
  *                D, E differ   D: nothing  nothing       E: C         all
  *
- * A SPECULAR emitter ray is drawn only if S is all. tests/unit/test_plan.c
- * tries every row. */
+ * A SPECULAR emitter ray is drawn only if S is all.
+ *
+ * HEMISPHERE and COSINE draw N rays by E, N being light_samples, and the light
+ * that a vertex reflects is estimated by their mean:
+ *
+ *     L = 1/N sum T_i Le_i,  T_i = f cos / pdf of ray i, Le_i what it meets
+ *
+ * So each of them counts 1/N, and of emitters that a specular lobe leads to as
+ * well. If D = E the indirect ray is the first of the N. It counts 1/N too, but
+ * leads on with all of its T_1: what comes by way of other surfaces is what one
+ * ray says of it, whatever N is. MIS draws N points for each emitter asked and
+ * one direction; its weights are those of N + 1 samples (ql_mis.h).
+ * tests/unit/test_plan.c tries every row. */
 
 #ifndef QL_PLAN_H
 #define QL_PLAN_H
@@ -48,7 +59,8 @@
 typedef enum {
     QL_COUNTS_NOTHING, /* it is counted in another way */
     QL_COUNTS_ALL,
-    QL_COUNTS_MIS /* the part of its MIS weight (ql_mis.h) */
+    QL_COUNTS_MIS,  /* the part of its MIS weight (ql_mis.h) */
+    QL_COUNTS_SHARE /* 1/N: it is one of N */
 } ql_counts_t;
 
 /* What lobes a surface has. */
@@ -70,10 +82,12 @@ typedef struct {
 typedef struct {
     ql_plan_ray_t indirect; /* without one the path ends */
     ql_plan_ray_t emitter;
+    uint8_t emitter_rays; /* how many are drawn by that */
 } ql_plan_t;
 
 /* ql_plan_emitter_density: the density E of a ql_direct_t, see above.
- * ql_plan_is_mis: is a ray weighed by MIS? Both are the strategies' alone. */
+ * ql_plan_is_mis, ql_plan_is_share: is a ray weighed by MIS, or by 1/N?
+ * All of them are the strategies' alone. */
 #if QL_CFG_STRATEGIES
 QL_INLINE ql_density_t ql_plan_emitter_density(unsigned direct)
 {
@@ -93,6 +107,11 @@ QL_INLINE bool ql_plan_is_mis(ql_counts_t counts)
 {
     return counts == QL_COUNTS_MIS;
 }
+
+QL_INLINE bool ql_plan_is_share(ql_counts_t counts)
+{
+    return counts == QL_COUNTS_SHARE;
+}
 #else
 QL_INLINE ql_density_t ql_plan_emitter_density(unsigned direct)
 {
@@ -101,6 +120,12 @@ QL_INLINE ql_density_t ql_plan_emitter_density(unsigned direct)
 }
 
 QL_INLINE bool ql_plan_is_mis(ql_counts_t counts)
+{
+    (void)counts;
+    return false;
+}
+
+QL_INLINE bool ql_plan_is_share(ql_counts_t counts)
 {
     (void)counts;
     return false;
@@ -116,7 +141,7 @@ QL_INLINE bool ql_plan_is_same(ql_lobes_t lobes, ql_density_t a, ql_density_t b)
 
 /* Plan the rays of a vertex: the table above.
  *
- *   settings   -  direct and indirect are looked at
+ *   settings   -  direct, indirect and light_samples are looked at
  *   lobes      -  of the surface
  *   bounces    -  how many indirect reflections may follow, 0 at the last
  *                 vertex
@@ -136,14 +161,19 @@ QL_INLINE ql_plan_t ql_plan_of(const ql_settings_t *settings, ql_lobes_t lobes,
             lobes != QL_LOBES_SPECULAR
                     ? ql_plan_emitter_density(settings->direct)
                     : QL_DENSITY_NONE;
-    const ql_counts_t by_mis =
-            settings->direct == QL_DIRECT_MIS ? QL_COUNTS_MIS : QL_COUNTS_ALL;
+    const unsigned directions =
+            QL_CFG_STRATEGIES && settings->direct != QL_DIRECT_MIS
+                    ? settings->light_samples
+                    : 1;
+    const ql_counts_t of_all = directions > 1 ? QL_COUNTS_SHARE : QL_COUNTS_ALL;
+    const ql_counts_t by_emitter =
+            settings->direct == QL_DIRECT_MIS ? QL_COUNTS_MIS : of_all;
     const ql_counts_t by_specular =
             settings->direct != QL_DIRECT_NONE || specular ? QL_COUNTS_ALL
                                                            : QL_COUNTS_NOTHING;
     ql_plan_t plan = {
             .indirect = {indirect, QL_COUNTS_NOTHING, by_specular},
-            .emitter = {QL_DENSITY_NONE, by_mis, QL_COUNTS_ALL},
+            .emitter = {QL_DENSITY_NONE, QL_COUNTS_ALL, QL_COUNTS_ALL},
     };
 
     if (emitter == QL_DENSITY_NONE) {
@@ -152,16 +182,23 @@ QL_INLINE ql_plan_t ql_plan_of(const ql_settings_t *settings, ql_lobes_t lobes,
         if (indirect == QL_DENSITY_NONE && lobes >= QL_LOBES_SPECULAR &&
                 by_specular == QL_COUNTS_ALL) {
             plan.emitter.density = QL_DENSITY_SPECULAR;
+            plan.emitter_rays = 1;
         }
-    } else if (indirect != QL_DENSITY_NONE &&
-               ql_plan_is_same(lobes, indirect, emitter)) {
-        /* The indirect ray is as good an emitter ray as any. */
-        plan.indirect.density = emitter;
-        plan.indirect.counts = by_mis;
-    } else {
-        /* The emitter ray counts whatever lobe it takes. */
-        plan.emitter.density = emitter;
+        return plan;
+    }
+    /* Rays towards emitters count whatever lobe they take. */
+    plan.emitter = (ql_plan_ray_t){emitter, by_emitter, of_all};
+    plan.emitter_rays = (uint8_t)directions; /* <= 255 */
+    if (indirect == QL_DENSITY_NONE ||
+            !ql_plan_is_same(lobes, indirect, emitter)) {
         plan.indirect.specular = QL_COUNTS_NOTHING;
+        return plan;
+    }
+    /* The indirect ray is as good an emitter ray as any. */
+    plan.indirect = plan.emitter;
+    plan.emitter_rays--;
+    if (plan.emitter_rays == 0) {
+        plan.emitter.density = QL_DENSITY_NONE;
     }
     return plan;
 }

@@ -14,8 +14,8 @@
 QL_C_BEGIN
 
 /* Pairs of dimensions. Those of bounce k are QL_DIM_BOUNCE(k) + the name, and
- * those of the next samples of emitters are QL_DIMS_A_SAMPLE apart (modulo
- * 2^32). */
+ * those of the next samples of emitters, points or directions, are
+ * QL_DIMS_A_SAMPLE apart (modulo 2^32). */
 enum {
     QL_DIM_PIXEL = 0,       /* where in the pixel */
     QL_DIM_LENS = 1,        /* where on the lens */

@@ -367,6 +367,65 @@ TEST(every_strategy_has_the_known_mean_and_no_other_ones_variance)
     NOTE("worst z %.1f of means, %.1f of variances", worst, worst_variance);
 }
 
+/* Of the mean of n samples: cumulants of independent ones add up. */
+static lambert_moments_t mean_of(const lambert_moments_t *e, double n)
+{
+    const double square = e->variance * e->variance;
+    const double cumulant = e->fourth - 3 * square;
+    const lambert_moments_t moments = {e->mean, e->variance / n,
+            cumulant / (n * n * n) + 3 * square / (n * n)};
+
+    return moments;
+}
+
+/* A sum divided by one less has a mean and a variance that are refused, by
+ * twice the limit, so with any seed; their standard errors are those of e. */
+static void claim_directions(
+        int strategy, const lambert_moments_t *one, unsigned n, double *worst)
+{
+    ql_settings_t s = settings_of(strategy, 0, 20 + n);
+    const lambert_moments_t e = mean_of(one, n);
+    lambert_moments_t bad = e;
+    stats_moments_t got;
+    double z, variance;
+
+    s.light_samples = (uint8_t)n;
+    got = estimate_pixel(&m, &s, 0, 0, 1u << 14);
+    got.mean /= RADIANCE;
+    got.m2 /= RADIANCE * RADIANCE;
+    z = estimate_z(&got, e.mean, e.variance);
+    variance = variance_z(&got, &e);
+    CHECK(fabs(z) < STATS_Z_MAX && fabs(variance) < STATS_Z_MAX,
+            "%u of %s: mean %.6f, want %.6f; variance %.6f, want %.6f", n,
+            strategies[strategy].name, got.mean, e.mean, stats_variance(&got),
+            e.variance);
+    *worst = fmax(*worst, fmax(fabs(z), fabs(variance)));
+    bad.mean *= n / (n - 1.0);
+    bad.variance *= n / (n - 1.0);
+    bad.fourth += bad.variance * bad.variance - e.variance * e.variance;
+    CHECK(fabs(estimate_z(&got, bad.mean, e.variance)) > 2 * STATS_Z_MAX &&
+                    fabs(variance_z(&got, &bad)) > 2 * STATS_Z_MAX,
+            "%u of %s divided by one less pass: mean %.6f, variance %.6f", n,
+            strategies[strategy].name, got.mean, stats_variance(&got));
+}
+
+TEST(n_directions_have_the_mean_of_one_and_an_nth_of_its_variance)
+{
+    static const unsigned counts[] = {2, 5};
+    double worst = 0;
+
+    make_square(0);
+    for (int k = HEMISPHERE; k <= COSINE; k++) {
+        const lambert_moments_t one =
+                expected(k, SIDE_CELLS, squares[0].form_factor);
+
+        for (unsigned i = 0; i < sizeof counts / sizeof *counts; i++) {
+            claim_directions(k, &one, counts[i], &worst);
+        }
+    }
+    NOTE("worst z %.1f; divided by one less refused", worst);
+}
+
 /* Samples that are not 0, and whether all of those are the same. */
 static uint32_t count_hits(int strategy, uint32_t samples, bool *same)
 {
@@ -847,7 +906,8 @@ TEST(furnace_gives_the_series_with_more_light_samples_and_roulette)
 
         if (i % 5 < 2) {
             make_furnace(s.direct, i % 3 == 0 ? 0.5 : 0.8);
-            s.light_samples = i % 5 == 0 ? 3 : 1;
+            /* halves are binary numbers: sums do not round them */
+            s.light_samples = i % 5 == 0 ? 2 : 1;
             s.roulette = i % 4 != 0 || s.light_samples == 1;
             claim_furnace(
                     &s, furnace_samples(&s), series(i % 3 == 0 ? 0.5 : 0.8, 3));
@@ -1210,6 +1270,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("known/strategies", argc, argv);
     RUN(quadrature_gives_the_known_means_and_variances);
     RUN(every_strategy_has_the_known_mean_and_no_other_ones_variance);
+    RUN(n_directions_have_the_mean_of_one_and_an_nth_of_its_variance);
     RUN(directions_hit_the_square_as_often_as_a_binomial_says);
     RUN(mis_varies_less_than_both_of_its_parts_near_a_light);
     RUN(emitters_shine_to_both_sides_only_if_they_are_told_to);

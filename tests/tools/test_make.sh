@@ -157,6 +157,11 @@ gates() {
 say a_firmware_has_the_gates_that_its_settings_need $? \
     "$(head -n 1 "$work/lacking")"
 
+build -n firmware BOARD=microbit DIRECT=cosine LIGHTS=all INDIRECT=none
+said=$(cat "$work/errors")
+[ "$said" = 'make: LIGHTS=all has no effect with DIRECT=cosine' ]
+say a_setting_of_a_board_without_effect_says_so $? "$said"
+
 # ---- what is wrong
 
 # WORDS OF THE COMMAND LINE | WHAT THE ONE LINE SAYS

@@ -27,6 +27,10 @@ expect an_unknown_extension_is_refused 1 '.ppm, .pfm or .png' \
 expect rows_below_the_picture_are_refused 1 'from 0 to 8' \
     "$ref" cornell.qlb -o a.pfm --size 8x8 --rows 4:9
 
+expect what_has_no_effect_says_so 0 "'--lights all' has no effect with" \
+    "$ref" cornell.qlb -o a.pfm $small --direct cosine --lights all --rows 0:1
+rm a.pfm
+
 # Input
 expect a_missing_scene_is_code_3 3 'none.qlb' "$ref" none.qlb -o a.pfm
 head -c 300 cornell.qlb >cut.qlb
@@ -81,6 +85,8 @@ agrees() { # CLAIM SCENE.qlb OPTION...
 }
 agrees two_rays_of_a_vertex_are_those_of_double cornell.qlb --bounces 1 \
     --direct hemisphere --indirect cosine
+agrees n_directions_are_those_of_double glossy.qlb --bounces 1 \
+    --direct cosine --light-samples 3
 agrees mis_and_roulette_are_those_of_double cornell.qlb --direct mis \
     --bounces 3 --roulette
 agrees a_round_lamp_by_mis_is_that_of_double glossy.qlb --direct mis --bounces 0

@@ -262,6 +262,34 @@ expect merge_of_a_picture_is_code_2 2 'byte 0' "$merge" t1.ppm -o no.ppm
 [ ! -e no.ppm ] && [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
 say a_failed_merge_leaves_nothing $?
 
+# Settings that change nothing say so and change no bit; the same settings where
+# they have an effect are silent.
+dot="scene.qlb --size 6x6 --spp 2 --seed 3 --quiet"
+while IFS='|' read -r where idle; do
+    "$sim" $dot $where -o without.ppm
+    "$sim" $dot $where $idle -o with.ppm 2>err.txt
+    cmp -s without.ppm with.ppm && [ "$(wc -l <err.txt)" -eq 1 ] &&
+        grep -q -- "warning: '$idle' has no effect with '$where'" err.txt ||
+        echo "$idle $where: $(cat err.txt)"
+    "$sim" $dot $idle -o with.ppm >err.txt 2>&1
+    [ ! -s err.txt ] || echo "$idle alone: $(cat err.txt)"
+done >idle.txt <<'END'
+--direct hemisphere|--lights all
+--direct cosine|--lights uniform
+--direct none|--lights all
+--direct none|--light-samples 2
+--bounces 0|--indirect uniform
+--bounces 0|--roulette
+--indirect none|--bounces 2
+--indirect none|--roulette
+END
+[ ! -s idle.txt ]
+say settings_without_effect_say_so $? "$(head -n 1 idle.txt)"
+"$sim" $dot --direct cosine -o without.ppm &&
+    "$sim" $dot --direct cosine --light-samples 2 -o with.ppm >err.txt 2>&1
+! cmp -s without.ppm with.ppm && [ ! -s err.txt ]
+say n_directions_have_an_effect $?
+
 # Numbers
 "$sim" scene.qlb --save-sums n.qls $small --stats >stats.txt
 grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 8 ]

@@ -7,6 +7,7 @@
 /* What a plan depends on. */
 typedef struct {
     unsigned direct, indirect;
+    unsigned samples; /* light_samples */
     ql_lobes_t lobes;
     unsigned bounces;
     bool specular;
@@ -18,6 +19,7 @@ static ql_plan_t plan_of(const case_t *c)
 
     s.direct = (uint8_t)c->direct;
     s.indirect = (uint8_t)c->indirect;
+    s.light_samples = (uint8_t)c->samples;
     return ql_plan_of(&s, c->lobes, c->bounces, c->specular);
 }
 
@@ -30,12 +32,14 @@ static unsigned long each_case(
     case_t c;
 
     for (c.direct = QL_DIRECT_NONE; c.direct <= directs; c.direct++) {
-        for (unsigned i = 0; i < 4 * 4 * 3 * 2; i++) {
+        for (unsigned i = 0; i < 4 * 4 * 3 * 2 * 2; i++) {
             c.indirect = i % 4; /* QL_INDIRECT_NONE .. _BRDF */
             c.lobes = (ql_lobes_t)(i / 4 % 4);
             c.bounces = i / 16 % 3;
-            c.specular = i / 48 != 0;
-            if (!QL_CFG_STRATEGIES && c.indirect == QL_INDIRECT_UNIFORM) {
+            c.specular = i / 48 % 2 != 0;
+            c.samples = i / 96 != 0 ? 3 : 1;
+            if (!QL_CFG_STRATEGIES &&
+                    (c.indirect == QL_INDIRECT_UNIFORM || c.samples > 1)) {
                 continue;
             }
             {
@@ -51,10 +55,10 @@ static unsigned long each_case(
 
 /* ---- The rule, from what is counted, not from how it is decided -------- */
 
-/* By how much the estimators of a vertex count an emitter: in full, or by the
- * MIS weight that belongs to one of two densities. */
+/* By how much the estimators of a vertex count an emitter: in full, by shares
+ * of some rays, or by the MIS weight that belongs to one of two densities. */
 typedef struct {
-    unsigned in_full, of_towards, of_lobe;
+    unsigned in_full, shares, of_towards, of_lobe;
 } count_t;
 
 static bool has_specular(ql_lobes_t lobes)
@@ -67,49 +71,60 @@ static bool has_other(ql_lobes_t lobes)
     return lobes != QL_LOBES_SPECULAR;
 }
 
-static void count_ray(count_t *count, ql_counts_t counts)
+static void count_rays(count_t *count, unsigned rays, ql_counts_t counts)
 {
-    count->in_full += counts == QL_COUNTS_ALL;
-    count->of_lobe += counts == QL_COUNTS_MIS;
+    count->in_full += counts == QL_COUNTS_ALL ? rays : 0;
+    count->shares += counts == QL_COUNTS_SHARE ? rays : 0;
+    count->of_lobe += counts == QL_COUNTS_MIS ? rays : 0;
+}
+
+/* All shares are one emitter. */
+static void add_shares(count_t *count, const case_t *c)
+{
+    count->in_full += count->shares == c->samples;
+    count->in_full += count->shares % c->samples != 0 ? 2 : 0; /* too many */
 }
 
 /* What is counted of light that a lobe which is not specular reflects. */
 static count_t count_other(const case_t *c, const ql_plan_t *plan)
 {
-    count_t count = {0, 0, 0};
+    count_t count = {0, 0, 0, 0};
 
     /* points or directions drawn towards the emitters */
     count.in_full += c->direct == QL_DIRECT_AREA;
     count.in_full += c->direct == QL_DIRECT_SOLID_ANGLE;
     count.of_towards += c->direct == QL_DIRECT_MIS;
     if (plan->indirect.density != QL_DENSITY_NONE) {
-        count_ray(&count, plan->indirect.counts);
+        count_rays(&count, 1, plan->indirect.counts);
     }
     if (plan->emitter.density != QL_DENSITY_NONE &&
             plan->emitter.density != QL_DENSITY_SPECULAR) {
-        count_ray(&count, plan->emitter.counts);
+        count_rays(&count, plan->emitter_rays, plan->emitter.counts);
     }
+    add_shares(&count, c);
     return count;
 }
 
 /* And of light that a specular lobe does. */
-static count_t count_specular(const ql_plan_t *plan)
+static count_t count_specular(const case_t *c, const ql_plan_t *plan)
 {
-    count_t count = {0, 0, 0};
+    count_t count = {0, 0, 0, 0};
 
     if (plan->indirect.density != QL_DENSITY_NONE) {
-        count_ray(&count, plan->indirect.specular);
+        count_rays(&count, 1, plan->indirect.specular);
     }
     if (plan->emitter.density != QL_DENSITY_NONE) {
-        count_ray(&count, plan->emitter.specular);
+        count_rays(&count, plan->emitter_rays, plan->emitter.specular);
     }
+    add_shares(&count, c);
     return count;
 }
 
 /* What is wrong with a plan; NULL if nothing is. */
 static const char *fault_of(const case_t *c, const ql_plan_t *plan)
 {
-    const count_t other = count_other(c, plan), specular = count_specular(plan);
+    const count_t other = count_other(c, plan);
+    const count_t specular = count_specular(c, plan);
 
     if (has_other(c->lobes)) {
         if (other.in_full > 1 || other.of_lobe > 1 ||
@@ -137,15 +152,16 @@ static void check_counts(const case_t *c, const ql_plan_t *plan)
 {
     const char *fault = fault_of(c, plan);
 
-    CHECK(fault == NULL, "direct %u indirect %u lobes %d bounces %u/%d: %s",
-            c->direct, c->indirect, c->lobes, c->bounces, c->specular, fault);
+    CHECK(fault == NULL,
+            "direct %u x %u indirect %u lobes %d bounces %u/%d: %s", c->direct,
+            c->samples, c->indirect, c->lobes, c->bounces, c->specular, fault);
 }
 
 TEST(every_emitter_is_counted_exactly_once)
 {
     const unsigned long count = each_case(check_counts);
 
-    CHECK(count == (QL_CFG_STRATEGIES ? 6ul * 96 : 2ul * 72), "%lu", count);
+    CHECK(count == (QL_CFG_STRATEGIES ? 6ul * 192 : 2ul * 72), "%lu", count);
     NOTE("%lu plans", count);
 }
 
@@ -197,8 +213,9 @@ static void check_emitter(const case_t *c, const ql_plan_t *plan)
             "direct %u indirect %u lobes %d bounces %u: density %d", c->direct,
             c->indirect, c->lobes, c->bounces, ray->density);
     CHECK(ray->counts == (c->direct == QL_DIRECT_MIS ? QL_COUNTS_MIS
+                                 : c->samples > 1    ? QL_COUNTS_SHARE
                                                      : QL_COUNTS_ALL),
-            "direct %u counts %d", c->direct, ray->counts);
+            "direct %u x %u counts %d", c->direct, c->samples, ray->counts);
 }
 
 TEST(emitters_are_met_by_rays_of_the_strategys_density)
@@ -215,11 +232,12 @@ static void check_need(const case_t *c, const ql_plan_t *plan)
     if (plan->emitter.density == QL_DENSITY_NONE) {
         return;
     }
-    less.emitter.density = QL_DENSITY_NONE;
+    less.emitter_rays--;
     CHECK(fault_of(c, &less) != NULL,
             "direct %u indirect %u lobes %d bounces %u: an idle ray", c->direct,
             c->indirect, c->lobes, c->bounces);
-    CHECK(!is_density(c->lobes, plan->emitter.density, plan->indirect.density),
+    CHECK(c->samples > 1 || !is_density(c->lobes, plan->emitter.density,
+                                    plan->indirect.density),
             "direct %u indirect %u lobes %d: two rays of density %d", c->direct,
             c->indirect, c->lobes, plan->emitter.density);
 }
@@ -233,9 +251,17 @@ TEST(an_emitter_ray_is_drawn_only_where_no_other_ray_will_do)
 
 static unsigned long planted, seen;
 
+static bool same_ray(const ql_plan_ray_t *a, const ql_plan_ray_t *b)
+{
+    return a->density == b->density && a->counts == b->counts &&
+           a->specular == b->specular;
+}
+
 static void plant(const case_t *c, const ql_plan_t *plan, ql_plan_t bad)
 {
-    const bool same = memcmp(plan, &bad, sizeof bad) == 0;
+    const bool same = same_ray(&plan->indirect, &bad.indirect) &&
+                      same_ray(&plan->emitter, &bad.emitter) &&
+                      plan->emitter_rays == bad.emitter_rays;
 
     if (!same) {
         planted++;
@@ -246,7 +272,10 @@ static void plant(const case_t *c, const ql_plan_t *plan, ql_plan_t bad)
 /* Change what a ray that is drawn counts, for lobes that the surface has. */
 static void check_teeth(const case_t *c, const ql_plan_t *plan)
 {
-    for (ql_counts_t k = QL_COUNTS_NOTHING; k <= QL_COUNTS_MIS; k++) {
+    /* the share of one is all */
+    const ql_counts_t last = c->samples > 1 ? QL_COUNTS_SHARE : QL_COUNTS_MIS;
+
+    for (ql_counts_t k = QL_COUNTS_NOTHING; k <= last; k++) {
         ql_plan_t bad = *plan;
 
         if (plan->indirect.density != QL_DENSITY_NONE) {
@@ -269,6 +298,11 @@ static void check_teeth(const case_t *c, const ql_plan_t *plan)
             bad = *plan;
             if (has_specular(c->lobes)) {
                 bad.emitter.specular = k;
+                plant(c, plan, bad);
+            }
+            bad = *plan;
+            if (k == QL_COUNTS_NOTHING) {
+                bad.emitter_rays++;
                 plant(c, plan, bad);
             }
         }

@@ -10,7 +10,8 @@
 #
 # Prints assignments for make, words without blanks: every variable; sim_options
 # of the picture; with a BOARD, what its compiler defines. Or "error" and one
-# line that says what is wrong.
+# line that says what is wrong. Which settings of a board's picture have no
+# effect goes to stderr; qlux-sim says it of a picture here.
 
 function fail(text)
 {
@@ -225,11 +226,27 @@ function define(name, text)
         "board_port" : "board_gates") "+=-D" name "=" text
 }
 
+# LIGHTS=all has no effect with DIRECT=cosine; what is the default is silent.
+function print_idle(settings,    r, member, where)
+{
+    for (r = 1; r <= gates_rows; r++) {
+        if (!gates_idle(r, settings))
+            continue
+        member = toupper(gates_member)
+        where = toupper(gates_where)
+        if (value[member] != standard[member])
+            print "make: " member "=" value[member] " has no effect with " \
+                where "=" value[where] > "/dev/stderr"
+    }
+}
+
 function print_gates(    settings, key, member, k, need, formats)
 {
     for (k = 1; k <= n; k++)
         if (option[name[k]] ~ /^--/ && name[k] in value)
             settings[tolower(name[k])] = gates_value(in_c(name[k]))
+    if (level == 0)
+        print_idle(settings)
     member = gates_need("STRATEGIES", settings)
     key = "STRATEGIES" in value ? value["STRATEGIES"] + 0 : member != ""
     if (!key && member != "")

@@ -4,8 +4,9 @@
 # usage: awk -f tools/dev/gates.awk -f PROGRAM.awk ...
 #
 # Functions for other programs. gates_read() reads the enums, the numbers and
-# the rows of QL_SETTINGS_NEED of firmware/base/ql_settings.h, and the pixel
-# formats of ql_format.h; gates_need() says what settings need.
+# the rows of QL_SETTINGS_NEED and QL_SETTINGS_IDLE of
+# firmware/base/ql_settings.h, and the pixel formats of ql_format.h;
+# gates_need() says what settings need, gates_idle() which have no effect.
 
 # solid-angle of QL_DIRECT_: QL_DIRECT_SOLID_ANGLE
 function gates_enumerator(prefix, word)
@@ -34,6 +35,14 @@ function gates_read(    file, line, names, n, i, at, text)
                 split(line, text, " ")
                 gates_number[text[2]] = text[3] + 0
             }
+            #     NEED(STRATEGIES, direct, QL_DIRECT_HEMISPHERE, ...)  \
+            if (line ~ /^ +(NEED|BOTH|IDLE)\(/)
+                gates_row[++gates_rows] = ""
+            if (gates_rows > 0 && gates_row[gates_rows] !~ /\)/) {
+                gsub(/[\\ ]/, "", line)
+                gates_row[gates_rows] = gates_row[gates_rows] line
+                continue
+            }
             if (line ~ /^typedef enum/)
                 at = 0
             if (line ~ /^}/)
@@ -44,13 +53,6 @@ function gates_read(    file, line, names, n, i, at, text)
                 sub(/[, ].*/, "", line)
                 gates_number[line] = at++
                 gates_list[++gates_enums] = line
-            }
-            #     NEED(STRATEGIES, direct, QL_DIRECT_HEMISPHERE, ...)  \
-            if (line ~ /^ +(NEED|BOTH)\(/)
-                gates_row[++gates_rows] = ""
-            if (gates_rows > 0 && gates_row[gates_rows] !~ /\)/) {
-                gsub(/[\\ ]/, "", line)
-                gates_row[gates_rows] = gates_row[gates_rows] line
             }
         }
         close(file)
@@ -71,6 +73,24 @@ function gates_value(name)
     return name in gates_number ? gates_number[name] : name + 0
 }
 
+# Is settings[MEMBER] within FIRST and LAST? These three begin at part[k].
+function gates_within(settings, part, k)
+{
+    return settings[part[k]] >= gates_value(part[k + 1]) &&
+        settings[part[k]] <= gates_value(part[k + 2])
+}
+
+# Is row r of settings that have no effect? Sets gates_member to what has none,
+# gates_where to the member that is to blame.
+function gates_idle(r, settings,    part)
+{
+    split(gates_row[r], part, /[(),]/)
+    gates_member = part[2]
+    gates_where = part[5]
+    return part[1] == "IDLE" && gates_within(settings, part, 2) &&
+        gates_within(settings, part, 5)
+}
+
 # The member of ql_settings_t for which settings[MEMBER], numbers, need a gate;
 # nothing if they do not.
 function gates_need(gate, settings,    r, n, part, k, all)
@@ -81,8 +101,7 @@ function gates_need(gate, settings,    r, n, part, k, all)
             continue
         all = 1
         for (k = 3; k + 2 <= n && part[k] != ""; k += 3)
-            all = all && settings[part[k]] >= gates_value(part[k + 1]) &&
-                settings[part[k]] <= gates_value(part[k + 2])
+            all = all && gates_within(settings, part, k)
         if (all)
             return part[3]
     }

@@ -14,6 +14,7 @@ typedef struct {
     ref_ray_t ray;
     double carried[3];
     sight_t sight;
+    double part;         /* 1/N of what it sees, if it is one of N */
     double pdf;          /* of its direction, for its share */
     ref_surface_t begun; /* where it began, for its share */
     bool delta;
@@ -37,7 +38,6 @@ typedef struct {
 
 typedef struct {
     unsigned bounce;
-    bool last; /* the ray only looks for emitters */
     bool seen; /* so far there were mirrors and glass only */
 } state_t;
 
@@ -95,7 +95,7 @@ static double share_of(const path_t *path, const way_t *way, int32_t light,
     double ratio;
 
     if (way->sight != SEES_A_SHARE || light < 0) {
-        return 1;
+        return way->part;
     }
     ratio = way->pdf *
             ref_aim_inverse(path->scene, &way->begun, way->ray.direction, hit) /
@@ -222,18 +222,43 @@ static void direct_light(path_t *path, const vertex_t *v)
 
 /* ---- The next ray ------------------------------------------------------- */
 
-/* What a way is drawn for, which says the numbers to draw it by. */
-typedef enum { TO_GO_ON, TO_LOOK } purpose_t;
+/* Density by which a strategy looks for emitters. */
+static ql_density_t looks_by(const ql_settings_t *s)
+{
+    return s->direct == QL_DIRECT_HEMISPHERE ? QL_DENSITY_UNIFORM
+           : s->direct == QL_DIRECT_COSINE   ? QL_DENSITY_COSINE
+           : s->direct == QL_DIRECT_MIS      ? QL_DENSITY_BRDF
+                                             : QL_DENSITY_NONE;
+}
+
+/* By how many ways a vertex does, whose mean counts. */
+static unsigned looks_of(const ql_settings_t *s, const vertex_t *v)
+{
+    const ql_density_t look = looks_by(s);
+
+    return (look == QL_DENSITY_UNIFORM || look == QL_DENSITY_COSINE) &&
+                           ref_bsdf_has_spread(&v->bsdf)
+                   ? s->light_samples
+                   : 1;
+}
+
+/* The numbers of a vertex that a way is drawn by, of its first or its second
+ * one; of the i-th that looks for emitters. */
+typedef struct {
+    uint32_t direction, choice;
+} numbers_t;
+
+static const numbers_t first_numbers = {QL_DIM_DIRECTION, QL_DIM_CHOICE};
+static const numbers_t second_numbers = {QL_DIM_LOOK, QL_DIM_LOOK_CHOICE};
 
 /* Draw a way from a vertex. */
 static bool draw(const path_t *path, const vertex_t *v, ql_density_t density,
-        ref_lobes_t lobes, purpose_t purpose, way_t *way)
+        ref_lobes_t lobes, numbers_t numbers, way_t *way)
 {
-    const bool look = purpose == TO_LOOK;
-    const ql_uniform2_t u = ql_sampler_2d(
-            &path->sampler, v->dim + (look ? QL_DIM_LOOK : QL_DIM_DIRECTION));
-    const uint32_t pick = ql_sampler_1d(&path->sampler,
-            v->dim + (look ? QL_DIM_LOOK_CHOICE : QL_DIM_CHOICE));
+    const ql_uniform2_t u =
+            ql_sampler_2d(&path->sampler, v->dim + numbers.direction);
+    const uint32_t pick =
+            ql_sampler_1d(&path->sampler, v->dim + numbers.choice);
     ref_bsdf_sample_t sample;
 
     if (!ref_bsdf_sample(&v->bsdf, density, lobes, pick, u, &sample)) {
@@ -245,6 +270,7 @@ static bool draw(const path_t *path, const vertex_t *v, ql_density_t density,
     }
     way->delta = sample.delta;
     way->sight = SEES_ALL;
+    way->part = 1.0 / looks_of(path->settings, v);
     if (density == QL_DENSITY_BRDF && !sample.delta &&
             path->settings->direct == QL_DIRECT_MIS) {
         way->sight = SEES_A_SHARE;
@@ -254,13 +280,20 @@ static bool draw(const path_t *path, const vertex_t *v, ql_density_t density,
     return largest(way->carried) > 0;
 }
 
-/* Density by which a strategy looks for emitters. */
-static ql_density_t looks_by(const ql_settings_t *s)
+/* Draw ways that only look for emitters and follow them. */
+static void look_around(path_t *path, const vertex_t *v, ql_density_t density,
+        ref_lobes_t lobes, numbers_t numbers, unsigned count)
 {
-    return s->direct == QL_DIRECT_HEMISPHERE ? QL_DENSITY_UNIFORM
-           : s->direct == QL_DIRECT_COSINE   ? QL_DENSITY_COSINE
-           : s->direct == QL_DIRECT_MIS      ? QL_DENSITY_BRDF
-                                             : QL_DENSITY_NONE;
+    for (unsigned i = 0; i < count; i++) {
+        ref_hit_t hit;
+        way_t way;
+
+        if (draw(path, v, density, lobes, numbers, &way)) {
+            (void)follow(path, &way, &hit);
+        }
+        numbers.direction += QL_DIMS_A_SAMPLE;
+        numbers.choice += QL_DIMS_A_SAMPLE;
+    }
 }
 
 static bool same_density(const ref_bsdf_t *bsdf, ql_density_t a, ql_density_t b)
@@ -296,6 +329,7 @@ static bool go_on(path_t *path, const vertex_t *v, state_t *state, way_t *way)
 {
     const ql_settings_t *s = path->settings;
     const ql_density_t look = looks_by(s);
+    const unsigned looks = looks_of(s, v);
     const bool mirror = ref_bsdf_has_delta(&v->bsdf) &&
                         (s->direct != QL_DIRECT_NONE || state->seen);
     ql_density_t density = state->bounce < s->bounces
@@ -307,23 +341,20 @@ static bool go_on(path_t *path, const vertex_t *v, state_t *state, way_t *way)
         const bool spread =
                 look != QL_DENSITY_NONE && ref_bsdf_has_spread(&v->bsdf);
 
-        state->last = true;
-        return (spread || mirror) &&
-               draw(path, v, look, spread ? REF_LOBES_ALL : REF_LOBES_DELTA,
-                       TO_GO_ON, way);
+        if (spread) {
+            look_around(path, v, look, REF_LOBES_ALL, first_numbers, looks);
+        } else if (mirror) {
+            look_around(path, v, look, REF_LOBES_DELTA, first_numbers, 1);
+        }
+        return false;
     }
     apart = look != QL_DENSITY_NONE && !same_density(&v->bsdf, look, density);
-    if (apart) {
-        ref_hit_t hit;
-        way_t around;
-
-        if (draw(path, v, look, REF_LOBES_ALL, TO_LOOK, &around)) {
-            (void)follow(path, &around, &hit);
-        }
-    } else if (look != QL_DENSITY_NONE) {
-        density = look;
+    if (look != QL_DENSITY_NONE) {
+        look_around(path, v, look, REF_LOBES_ALL, second_numbers,
+                apart ? looks : looks - 1);
+        density = apart ? density : look;
     }
-    if (!draw(path, v, density, REF_LOBES_ALL, TO_GO_ON, way)) {
+    if (!draw(path, v, density, REF_LOBES_ALL, first_numbers, way)) {
         return false;
     }
     if (apart || (way->delta ? !mirror : look == QL_DENSITY_NONE)) {
@@ -356,13 +387,13 @@ static bool arrive(const path_t *path, const way_t *way, const ref_hit_t *hit,
 
 static void trace(path_t *path, way_t *way)
 {
-    state_t state = {0, false, true};
+    state_t state = {0, true};
     vertex_t v;
     ref_hit_t hit;
 
     path->stats->paths++;
     for (;; state.bounce++) {
-        if (!follow(path, way, &hit) || state.last ||
+        if (!follow(path, way, &hit) ||
                 !arrive(path, way, &hit, state.bounce, &v)) {
             return;
         }
@@ -401,7 +432,7 @@ void ref_pixel(const ref_scene_t *scene, const ql_settings_t *settings,
 
     ql_sampler_begin(&path.sampler, settings->sampler, settings->seed, x, y);
     for (uint32_t i = 0; i < count; i++) {
-        way_t way = {.carried = {1, 1, 1}, .sight = SEES_ALL};
+        way_t way = {.carried = {1, 1, 1}, .sight = SEES_ALL, .part = 1};
         ql_uniform2_t u, on_lens;
 
         ql_sampler_start(&path.sampler, first + i);

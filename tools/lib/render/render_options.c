@@ -3,6 +3,7 @@
 
 #include "lib/render/render_options.h"
 
+#include <string.h>
 #include <unistd.h>
 
 #include "qlux.h"
@@ -53,7 +54,9 @@ const option_t render_options_settings[] = {
                 .words = render_words_lights,
                 .help = "emitters asked at a hit; power and uniform ask one"},
         {"--light-samples N", OPTION_NUMBER, AT(settings.light_samples),
-                .min = 1, .max = UINT8_MAX, .help = "of each emitter asked"},
+                .min = 1, .max = UINT8_MAX,
+                .help = "of each emitter asked; directions, by hemisphere and "
+                        "cosine"},
         {"--roulette", OPTION_FLAG, AT(roulette),
                 .help = "end paths at random, by their throughput"},
         OPTION_END};
@@ -132,6 +135,76 @@ static void take_samples(render_options_t *o)
     }
 }
 
+/* ---- Settings without effect --------------------------------------------- */
+
+/* A member of ql_settings_t from first to last. */
+typedef struct {
+    const char *member;
+    size_t at;
+    unsigned first, last;
+} range_t;
+
+#define RANGE(member, first, last)                                             \
+    {                                                                          \
+#member, offsetof(ql_settings_t, member), first, last                  \
+    }
+#define IDLE(member, first, last, where, where_first, where_last)              \
+    {RANGE(member, first, last), RANGE(where, where_first, where_last)},
+
+static const range_t idle[][2] = {QL_SETTINGS_IDLE(IDLE)};
+
+static unsigned value_of(const ql_settings_t *settings, const range_t *range)
+{
+    return *((const uint8_t *)settings + range->at);
+}
+
+static bool is_within(const ql_settings_t *settings, const range_t *range)
+{
+    const unsigned value = value_of(settings, range);
+
+    return value >= range->first && value <= range->last;
+}
+
+/* "--light-samples 4" of a member. */
+static void describe(char *text, size_t size, const ql_settings_t *settings,
+        const range_t *range)
+{
+    const unsigned value = value_of(settings, range);
+    const option_t *option = render_options_settings;
+    char name[32];
+
+    snprintf(name, sizeof name, "--%s", range->member);
+    for (char *c = name; (c = strchr(c, '_')) != NULL;) {
+        *c = '-';
+    }
+    while (strncmp(option->name, name, strcspn(option->name, " ")) != 0) {
+        option++;
+    }
+    if (option->kind == OPTION_FLAG) {
+        snprintf(text, size, "%s", name);
+    } else if (option->kind == OPTION_WORD) {
+        snprintf(text, size, "%s %s", name, option->words[value]);
+    } else {
+        snprintf(text, size, "%s %u", name, value);
+    }
+}
+
+/* Say which settings change nothing, unless they are the defaults. */
+static void warn_of_idle(const ql_settings_t *s, const ql_settings_t *defaults)
+{
+    for (size_t i = 0; i < sizeof idle / sizeof *idle; i++) {
+        const range_t *what = &idle[i][0], *where = &idle[i][1];
+        char option[64], other[64];
+
+        if (is_within(s, what) && is_within(s, where) &&
+                value_of(s, what) != value_of(defaults, what)) {
+            describe(option, sizeof option, s, what);
+            describe(other, sizeof other, s, where);
+            cli_warn("'%s' has no effect with '%s'", option, other);
+        }
+    }
+}
+
 void render_options_parse(
         const program_t *program, int argc, char **argv, void *into)
 {
@@ -153,6 +226,7 @@ void render_options_parse(
     o->settings.roulette = o->roulette;
     take_error(o);
     take_samples(o);
+    warn_of_idle(&o->settings, &start.settings);
 }
 
 void render_options_rows(render_options_t *options, uint32_t height)
