@@ -9,13 +9,14 @@ include $(wildcard tests/configs/*.mk)
 configs := $(patsubst config_%,%,$(sort $(filter config_%,$(.VARIABLES))))
 sanitize := -fsanitize=address,undefined -fno-sanitize-recover=all
 config_fine-san := $(config_fine) $(sanitize)
-config_draft-san := $(config_draft) $(sanitize)
+config_draft-san := $(config_draft) -fsanitize=undefined \
+    -fno-sanitize-recover=all
 
 # The many others are compiled for unit tests only, and in less time. They try
 # fewer random inputs; what they draw is compared bit for bit.
 full := fine draft fine-san draft-san
 test_flags = -Werror $(if $(filter fine draft,$1),-O2 -g1,-O1 \
-    $(if $(filter %-san,$1),-g1,-g0) -DQL_TEST_SHARE=8)
+    $(if $(filter %-san,$1),-g1 -DQL_TEST_SHARE=8,-g0 -DQL_TEST_SHARE=16))
 test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
     $(wildcard sim/sim_hal.c sim/sim_fault.c firmware/app/*.c)
 support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \

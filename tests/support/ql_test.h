@@ -65,6 +65,9 @@ static struct {
 #endif
 #define MANY(n) ((n) / QL_TEST_SHARE)
 
+/* The same of a loop through all inputs in steps of n: an odd number. */
+#define STRIDE(n) ((n)*QL_TEST_SHARE | 1)
+
 #define RUN(claim) ql_test_run(#claim, test_##claim)
 
 /* A claim that is not true of every build: of which, the condition says. */

@@ -78,7 +78,7 @@ TEST(contributions_are_rounded_half_up)
  * errors of a number that is rounded up with the chance of its fraction. */
 static double faint_z(double number, ql_uq31_t value, ql_real_t scale)
 {
-    enum { KEYS = 1 << 16 };
+    enum { KEYS = MANY(1 << 16) };
     const double fraction = number - floor(number);
     ql_diag_t diag = {0};
     uint64_t sum = 0;

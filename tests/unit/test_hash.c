@@ -31,7 +31,7 @@ static uint32_t unhash(uint32_t x)
 
 TEST(hash_can_be_undone_so_it_is_a_bijection)
 {
-    for (uint64_t i = 0; i <= 0xffffffffu; i += 257) {
+    for (uint64_t i = 0; i <= 0xffffffffu; i += STRIDE(257)) {
         const uint32_t x = (uint32_t)i;
 
         CHECK(unhash(ql_hash32(x)) == x, "%08lx -> %08lx -> %08lx",

@@ -464,7 +464,7 @@ TEST(neighbours_have_the_same_normal_along_their_edge)
     /* of lengths up to 1, and between them 0.75 or more */
     CHECK(worst <= 2 * (ldexp(1, -27) + ldexp(3 / 0.75, -30)),
             "off by %.3g rad", worst);
-    CHECK(pairs > 1000, "only %lu points hit both", pairs);
+    CHECK(pairs > RAYS / 32, "only %lu points hit both", pairs);
     NOTE("%lu points of the edge, within %.1e rad", pairs, worst);
 }
 

@@ -22,7 +22,7 @@ enum {
     LOW = QL_GRID_MARGIN,
     HIGH = QL_GRID_MAX - QL_GRID_MARGIN,
     RAYS = MANY(200000),
-    SPHERES = 1000,
+    SPHERES = MANY(1000),
     DIRECTIONS = 1000,
     UNIT = 256 / ONE, /* of a position, in those of a sphere */
     STEPS_MAX = 2

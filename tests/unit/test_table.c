@@ -154,13 +154,15 @@ TEST(what_is_left_of_u_is_uniform)
     static const uint32_t masses[] = {1, 2, 3, 4, 5, 7, 16, 31, 100, 255};
     unsigned long wrong, n = 0;
 
-    for (size_t k = 0; k < sizeof masses / sizeof masses[0]; k++) {
+    for (size_t k = 0;
+            k < sizeof masses / sizeof masses[0] && masses[k] < MANY(256);
+            k++) {
         wrong = count_uneven(masses[k], false);
         CHECK(wrong == 0, "mass %lu: %lu wrong", (unsigned long)masses[k],
                 wrong);
         n += masses[k] << 16;
     }
-    wrong = count_uneven(100, true);
+    wrong = count_uneven(7, true);
     CHECK(wrong > 65536, "u used again: %lu wrong", wrong);
     NOTE("%lu values of u; used again as it is, %lu wrong", n, wrong);
 }

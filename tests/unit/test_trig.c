@@ -48,7 +48,7 @@ TEST(sine_and_cosine_are_within_their_bound)
         check((i << 16) - 1);
         check((i << 16) + 0x7fffu);
     }
-    for (uint64_t i = 0; i <= 0xffffffffu; i += 2053) {
+    for (uint64_t i = 0; i <= 0xffffffffu; i += STRIDE(2053)) {
         check((uint32_t)i);
     }
     NOTE("worst %.2e, bound %.1e; 2.3 million angles", worst, BOUND);
@@ -75,7 +75,7 @@ TEST(no_angle_halfway_between_table_entries_exceeds_the_bound)
 TEST(points_lie_on_the_unit_circle)
 {
     worst_circle = 0;
-    for (uint64_t i = 0; i <= 0xffffffffu; i += 4099) {
+    for (uint64_t i = 0; i <= 0xffffffffu; i += STRIDE(4099)) {
         check((uint32_t)i);
     }
     NOTE("worst %.2e", worst_circle);
@@ -97,7 +97,7 @@ TEST(quarter_turns_are_exact)
 
 TEST(a_quarter_turn_more_swaps_sine_and_cosine_exactly)
 {
-    for (uint64_t i = 0; i <= 0xffffffffu; i += 65537) {
+    for (uint64_t i = 0; i <= 0xffffffffu; i += STRIDE(65537)) {
         int32_t s0, c0, s1, c1;
 
         ql_sincos((uint32_t)i, &s0, &c0);
@@ -151,7 +151,7 @@ TEST(real_sines_keep_the_bits_of_small_angles)
     const uint32_t middle = 0xc90fdaa2u; /* pi / 4, / 2, / 1 */
 
     worst_small = worst_large = 0;
-    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += 9973) {
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += STRIDE(9973)) {
         check_sin(real_of((uint32_t)m, -30));
         check_sin(real_of((uint32_t)m, -31));
         check_sin(real_of((uint32_t)m, -32));
@@ -181,7 +181,7 @@ static void check_atan(ql_real_t a)
 TEST(real_arc_tangents_are_within_2_to_the_minus_28)
 {
     worst_small = 0;
-    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += 9973) {
+    for (uint64_t m = 0x80000000u; m <= 0xffffffffu; m += STRIDE(9973)) {
         check_atan(real_of((uint32_t)m, -30));
         check_atan(real_of((uint32_t)m, -31));
         check_atan(real_of((uint32_t)m, -32));

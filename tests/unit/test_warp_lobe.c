@@ -544,7 +544,7 @@ TEST(power_lobes_match_their_densities)
 
 TEST(a_power_lobe_of_exponent_1_over_n_plus_2_is_rejected)
 {
-    set_power(20u << 16);
+    set_power(8u << 16);
     check_rejected(power_plus_2, power_below);
 }
 

@@ -584,7 +584,7 @@ static bool leads_back(uint32_t b1, uint32_t b2, uint32_t x, uint32_t y)
 /* In draft this is every point of the map's lattice. */
 TEST(triangle_map_is_a_bijection_into_the_triangle)
 {
-    enum { BITS = (QL_BARY_BITS == 16 ? 14 : 13) - (MANY(2) < 2) };
+    enum { BITS = (QL_BARY_BITS == 16 ? 14 : 13) - 2 * (MANY(2) < 2) };
     unsigned long wrong = 0;
     uint32_t first1 = 0, first2 = 0;
 
