@@ -65,37 +65,37 @@ static void describe(sums_t *sums, const ql_render_t *render)
     f[SUMS_TABLE_LERP] = QL_CFG_TABLE_LERP;
 }
 
-/* How many samples a pixel took. */
-static uint32_t count_of(const sums_t *sums, size_t pixel)
-{
-    return sums->counts != NULL
-                   ? sums->counts[pixel]
-                   : sums_row_count(
-                             sums, (uint32_t)(pixel / sums->field[SUMS_WIDTH]));
-}
-
+/* How many samples each pixel took. */
 static void write_map(const sums_t *sums, cli_out_t *out)
 {
-    image_t image;
+    image_writer_t writer;
+    image_t line;
 
-    image_new_floats(&image, sums->field[SUMS_WIDTH], sums->field[SUMS_HEIGHT]);
-    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++) {
-        image.floats[i] = (float)count_of(sums, i / 3); /* exact: <= 2^24 */
+    image_new_floats(&line, sums->field[SUMS_WIDTH], 1);
+    image_begin(&writer, IMAGE_PFM, line.width, sums->field[SUMS_HEIGHT], out);
+    for (uint32_t i = 0; i < sums->field[SUMS_HEIGHT]; i++) {
+        for (uint32_t k = 0; k < 3 * line.width; k++) {
+            line.floats[k] = (float)sums_count(/* exact: <= 2^24 */
+                    sums, k / 3, image_row_at(&writer, i));
+        }
+        image_row(&writer, &line);
     }
-    image_write(&image, IMAGE_PFM, out);
-    image_free(&image);
+    image_end(&writer);
+    image_free(&line);
 }
 
-/* Of the pixels in a range of rows. */
-static double mean_count(const sums_t *sums, const sums_range_t *rows)
+/* Of the pixels that were rendered. */
+static double mean_count(const sums_t *sums)
 {
-    const size_t width = sums->field[SUMS_WIDTH];
+    const uint32_t width = sums->field[SUMS_WIDTH];
     double sum = 0;
 
-    for (size_t i = width * rows->row_first; i < width * rows->row_end; i++) {
-        sum += count_of(sums, i);
+    for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
+        for (uint32_t x = 0; x < width; x++) {
+            sum += sums_count(sums, x, y);
+        }
     }
-    return sum / (double)(width * (rows->row_end - rows->row_first));
+    return sum / ((double)width * (sums->row_end - sums->row_first));
 }
 
 static void print_stats(const sim_stats_t *s)
@@ -113,19 +113,21 @@ static void run(render_options_t *o, const ql_render_t *render)
 {
     const bool has_picture = o->picture != NULL, has_save = o->save != NULL;
     const bool has_map = o->map != NULL;
-    sums_range_t range, clash;
+    const develop_t how = {.kind = o->kind, .format = o->format};
     cli_out_t picture, save, map;
+    sums_range_t range;
     sim_stats_t stats;
     sums_t sums;
 
     render_options_rows(o, render->settings.height);
+    memset(&sums, 0, sizeof sums);
     describe(&sums, render);
-    sums_new(&sums);
+    sums_new(&sums, o->rows.first, o->rows.end);
     range.row_first = o->rows.first;
     range.row_end = o->rows.end;
     range.sample_first = o->samples.first;
     range.sample_end = o->samples.end;
-    (void)sums_claim(&sums, &range, &clash);
+    sums_settle_one(&sums, &range);
     if (has_picture) {
         cli_out_open(&picture, o->picture);
     }
@@ -139,7 +141,7 @@ static void run(render_options_t *o, const ql_render_t *render)
         cli_fail(CLI_IO, "interrupted; nothing was written");
     }
     if (has_picture) {
-        develop_write(&sums, o->kind, o->format, &picture);
+        develop_write(&sums, &how, &picture);
     }
     if (has_save) {
         sums_write(&sums, &save);
@@ -159,7 +161,7 @@ static void run(render_options_t *o, const ql_render_t *render)
     if (o->stats) {
         print_stats(&stats);
         if (sums.counts != NULL) {
-            printf("samples-per-pixel: %.3f\n", mean_count(&sums, &range));
+            printf("samples-per-pixel: %.3f\n", mean_count(&sums));
         }
     }
     sums_free(&sums);

@@ -15,7 +15,7 @@ typedef struct {
 
 static ql_sum_t *pixel_of(const job_t *job, uint16_t x, uint16_t y)
 {
-    return job->sums->pixels + (size_t)job->sums->field[SUMS_WIDTH] * y + x;
+    return sums_pixels(job->sums, y) + x;
 }
 
 /* Sums are exact, so it changes no bit how many samples a call takes. */

@@ -12,7 +12,8 @@
 # in firmware/, hal/ql_hal.h, and hal/drivers/ql_bus.h between board and driver.
 #
 # The order in tools/, each may include those to its left:
-#   lib/program  lib/math  lib/image  lib/render  figure  and then the programs;
+#   lib/program  lib/math  lib/image  lib/ranges  lib/render  figure  and then
+#   the programs;
 #   of scene: world  foreign  read  mesh  blob  build, then what is beside them
 # Prints one claim a rule; exit 1 if any is broken.
 #

@@ -5,13 +5,13 @@
 #define _FILE_OFFSET_BITS 64
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-#include "lib/image/pnm.h"
 #include "lib/program/options.h"
 #include "lib/render/develop.h"
 #include "merge/fields.h"
@@ -49,8 +49,8 @@ static const program_t program = {.name = "qlux-merge",
         .sections = sections,
         .notes = "Parts come from qlux-sim --save-sums. They must be of one "
                  "scene and have the same settings; no sample may be in two of "
-                 "them. Rows pass one by one, so a picture may be larger than "
-                 "memory, but for a .png, which is put together there.",
+                 "them. Rows pass a few at a time, so a picture may be larger "
+                 "than memory.",
         .example = "qlux-sim box.qlb --rows 0:64 --save-sums top.qls\n"
                    "qlux-sim box.qlb --rows 64:128 --save-sums low.qls\n"
                    "qlux-merge top.qls low.qls -o box.png"};
@@ -66,153 +66,248 @@ static void check_options(const options_t *o)
     }
 }
 
-/* What is merged, a row at a time. */
+/* Rows are added up in batches of at most so many bytes, if more than one. */
+#define BATCH_BYTES (16u << 20)
+
+/* A part is open only while it is read. */
+typedef struct {
+    sums_file_t file;
+    ino_t inode; /* of the file, to know it again; 0: it is in the spool */
+    off_t size;
+    uint32_t range_end; /* its ranges, in the list of all, end before this */
+} part_t;
+
 typedef struct {
     sums_t whole; /* fields and ranges; no pixels */
-    sums_file_t *parts;
-    const option_list_t *names;
-    ql_sum_t *sum, *add; /* rows */
+    part_t *parts;
+    unsigned part_count;
+    FILE *spool; /* copies of all parts that cannot seek, or NULL */
+    uint32_t batch_rows;
+    uint32_t batch_first;
+    ql_sum_t *batch; /* sums of so many rows from there on; height: none yet */
+    ql_sum_t *row;   /* of one part */
 } merge_t;
 
-/* A file that can seek: what cannot is copied into a temporary one. */
-static FILE *open_part(const char *path, uint64_t *size)
+static void fail_to_read(const char *path)
 {
-    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb"), *copy;
+    cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
+}
+
+/* What cannot seek goes behind what is in the spool. */
+static void spool_part(merge_t *m, part_t *part, FILE *from)
+{
     char bytes[BUFSIZ];
-    struct stat info;
     size_t n;
 
+    if (m->spool == NULL) {
+        m->spool = tmpfile();
+    }
+    if (m->spool == NULL) {
+        cli_fail(CLI_IO, "cannot write a temporary file: %s", strerror(errno));
+    }
+    part->file.base = (uint64_t)ftello(m->spool);
+    while ((n = fread(bytes, 1, BUFSIZ, from)) > 0) {
+        fwrite(bytes, 1, n, m->spool);
+    }
+    if (ferror(from)) {
+        fail_to_read(part->file.path);
+    }
+    if (fflush(m->spool) != 0) {
+        cli_fail(CLI_IO, "cannot write a temporary file: %s", strerror(errno));
+    }
+    part->file.fd = fileno(m->spool);
+    part->file.size = (uint64_t)ftello(m->spool) - part->file.base;
+}
+
+/* Find a part's bytes for the first time. */
+static void begin_part(merge_t *m, part_t *part)
+{
+    const char *path = part->file.path;
+    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
+    struct stat info;
+
     if (file == NULL || fstat(fileno(file), &info) != 0) {
-        cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
+        fail_to_read(path);
+    } else if (file == stdin || !S_ISREG(info.st_mode)) {
+        spool_part(m, part, file);
+    } else {
+        part->inode = info.st_ino;
+        part->size = info.st_size;
+        part->file.size = (uint64_t)info.st_size;
     }
-    if (!S_ISREG(info.st_mode)) {
-        copy = tmpfile();
-        while (copy != NULL && (n = fread(bytes, 1, BUFSIZ, file)) > 0) {
-            fwrite(bytes, 1, n, copy);
-        }
-        if (ferror(file) || copy == NULL || fflush(copy) != 0 ||
-                fstat(fileno(copy), &info) != 0) {
-            cli_fail(CLI_IO, "cannot read %s: %s", path, strerror(errno));
-        }
-        file = copy;
+    if (file != NULL && file != stdin) {
+        fclose(file);
     }
-    *size = (uint64_t)info.st_size;
-    return file;
+}
+
+static void open_part(part_t *part)
+{
+    struct stat info;
+
+    if (part->inode == 0) {
+        return;
+    }
+    part->file.fd = open(part->file.path, O_RDONLY);
+    if (part->file.fd < 0 || fstat(part->file.fd, &info) != 0) {
+        fail_to_read(part->file.path);
+    }
+    if (info.st_ino != part->inode || info.st_size != part->size) {
+        cli_fail(CLI_IO, "cannot read %s: it was replaced meanwhile",
+                part->file.path);
+    }
+}
+
+static void close_part(const part_t *part)
+{
+    if (part->inode != 0) {
+        close(part->file.fd);
+    }
 }
 
 /* The part must be of the same picture as the first one. */
-static void check_fit(const merge_t *m, unsigned i)
+static void check_fit(const merge_t *m, const part_t *part)
 {
-    const sums_t *part = &m->parts[i].head;
-    const unsigned field = sums_compare(&m->whole, part);
+    const sums_t *head = &part->file.head;
+    const unsigned field = sums_compare(&m->whole, head);
     char text[2][FIELDS_TEXT_BYTES];
 
     if (field != SUMS_FIELD_COUNT) {
-        cli_fail(CLI_INPUT, "%s: its %s is %s, but %s in %s",
-                m->names->items[i], fields_name(field),
-                fields_text(text[0], part, field),
-                fields_text(text[1], &m->whole, field), m->names->items[0]);
+        cli_fail(CLI_INPUT, "%s: its %s is %s, but %s in %s", part->file.path,
+                fields_name(field), fields_text(text[0], head, field),
+                fields_text(text[1], &m->whole, field), m->parts[0].file.path);
     }
 }
 
-static void claim_ranges(merge_t *m, unsigned i)
+/* Check a part, and move its ranges into the list of all. */
+static void take_part(merge_t *m, part_t *part)
 {
-    const sums_t *part = &m->parts[i].head;
-    sums_range_t clash;
+    ranges_t *ranges = &part->file.head.ranges;
+    const char *error;
+    uint64_t where;
 
-    for (uint32_t k = 0; k < part->range_count; k++) {
-        if (!sums_claim(&m->whole, part->ranges + k, &clash)) {
-            cli_fail(CLI_INPUT,
-                    "%s: rows %u:%u samples %u:%u were counted before",
-                    m->names->items[i], (unsigned)clash.row_first,
-                    (unsigned)clash.row_end, (unsigned)clash.sample_first,
-                    (unsigned)clash.sample_end);
-        }
+    begin_part(m, part);
+    open_part(part);
+    error = sums_open(&part->file, &where);
+    close_part(part);
+    if (error != NULL) {
+        cli_fail(CLI_INPUT, "%s: byte %" PRIu64 ": %s", part->file.path, where,
+                error);
     }
+    if (part == m->parts) {
+        memcpy(m->whole.field, part->file.head.field, sizeof m->whole.field);
+    }
+    check_fit(m, part);
+    for (uint32_t i = 0; i < ranges->count; i++) {
+        ranges_add(&m->whole.ranges, ranges->items + i);
+    }
+    part->range_end = m->whole.ranges.count;
+    ranges_free(ranges);
 }
 
-/* Open all parts; they stay open, however many they are. */
+/* No sample may be in two parts. */
+static void settle(merge_t *m)
+{
+    const part_t *part = m->parts;
+    const sums_range_t *r;
+    uint32_t clash[2];
+
+    if (sums_settle(&m->whole, clash)) {
+        return;
+    }
+    while (part->range_end <= clash[1]) {
+        part++;
+    }
+    r = m->whole.ranges.items + clash[0];
+    cli_fail(CLI_INPUT, "%s: rows %u:%u samples %u:%u were counted before",
+            part->file.path, (unsigned)r->row_first, (unsigned)r->row_end,
+            (unsigned)r->sample_first, (unsigned)r->sample_end);
+}
+
 static void begin_merge(merge_t *m, const option_list_t *names)
 {
-    struct rlimit files;
-    uint64_t size, where;
-    const char *error;
-    FILE *file;
+    uint32_t width, height;
 
-    if (getrlimit(RLIMIT_NOFILE, &files) == 0) {
-        files.rlim_cur = files.rlim_max;
-        (void)setrlimit(RLIMIT_NOFILE, &files);
-    }
     memset(m, 0, sizeof *m);
-    m->names = names;
+    m->part_count = names->count;
     m->parts = cli_alloc(names->count, sizeof *m->parts);
     for (unsigned i = 0; i < names->count; i++) {
-        file = open_part(names->items[i], &size);
-        error = sums_open(m->parts + i, fileno(file), size, &where);
-        if (error != NULL) {
-            cli_fail(CLI_INPUT, "%s: byte %" PRIu64 ": %s", names->items[i],
-                    where, error);
-        }
-        if (i == 0) {
-            memcpy(m->whole.field, m->parts[0].head.field,
-                    sizeof m->whole.field);
-        }
-        check_fit(m, i);
-        claim_ranges(m, i);
+        m->parts[i].file.path = names->items[i];
+        take_part(m, m->parts + i);
     }
-    m->sum = cli_alloc(m->whole.field[SUMS_WIDTH], sizeof *m->sum);
-    m->add = cli_alloc(m->whole.field[SUMS_WIDTH], sizeof *m->add);
+    width = m->whole.field[SUMS_WIDTH];
+    height = m->whole.field[SUMS_HEIGHT];
+    sums_new(&m->whole, 0, 0);
+    settle(m);
+    m->batch_rows = BATCH_BYTES / sizeof *m->batch / width; /* width <= 2^14 */
+    if (m->batch_rows > height) {
+        m->batch_rows = height;
+    }
+    m->batch_first = height;
+    m->batch = cli_alloc(m->batch_rows, width * sizeof *m->batch);
+    m->row = cli_alloc(width, sizeof *m->row);
 }
 
-/* Row y of the whole in m->sum. Sums stay at their maximum as they do while
- * rendering, so any order of adding gives the same bits. */
-static void add_rows(merge_t *m, uint32_t y)
+static void end_merge(merge_t *m)
 {
-    const size_t n = 3 * (size_t)m->whole.field[SUMS_WIDTH];
+    for (unsigned i = 0; i < m->part_count; i++) {
+        sums_close(&m->parts[i].file);
+    }
+    sums_free(&m->whole);
+    if (m->spool != NULL) {
+        fclose(m->spool);
+    }
+    free(m->parts);
+    free(m->batch);
+    free(m->row);
+}
 
-    memset(m->sum, 0, n / 3 * sizeof *m->sum);
-    for (unsigned i = 0; i < m->names->count; i++) {
-        if (!sums_row(m->parts + i, y, m->add)) {
+/* Add a row of a part to the batch's. Sums stay at their maximum as they do
+ * while rendering, so any order of adding gives the same bits. */
+static void add_row(ql_sum_t *to, const ql_sum_t *row, uint32_t width)
+{
+    for (size_t k = 0; k < 3 * (size_t)width; k++) {
+        uint64_t *sum = to[k / 3].rgb + k % 3;
+        const uint64_t add = row[k / 3].rgb[k % 3];
+
+        *sum = add > UINT64_MAX - *sum ? UINT64_MAX : *sum + add;
+    }
+}
+
+static void add_batch(merge_t *m, uint32_t first)
+{
+    const uint32_t width = m->whole.field[SUMS_WIDTH];
+    const uint32_t height = m->whole.field[SUMS_HEIGHT];
+    const uint32_t end =
+            height - first < m->batch_rows ? height : first + m->batch_rows;
+
+    m->batch_first = first;
+    memset(m->batch, 0, (size_t)width * m->batch_rows * sizeof *m->batch);
+    for (unsigned i = 0; i < m->part_count; i++) {
+        part_t *part = m->parts + i;
+
+        if (!sums_holds(&part->file, first, end)) {
             continue;
         }
-        for (size_t k = 0; k < n; k++) {
-            uint64_t *sum = m->sum[k / 3].rgb + k % 3;
-            const uint64_t add = m->add[k / 3].rgb[k % 3];
-            *sum = add > UINT64_MAX - *sum ? UINT64_MAX : *sum + add;
+        open_part(part);
+        for (uint32_t y = first; y < end; y++) {
+            if (sums_row(&part->file, y, m->row)) {
+                add_row(m->batch + (size_t)width * (y - first), m->row, width);
+            }
         }
+        close_part(part);
     }
 }
 
-/* Row by row, but for a PNG, whose bytes are compressed as one. */
-static void write_picture(merge_t *m, const options_t *o, cli_out_t *out)
+/* Row y of the whole. */
+static const ql_sum_t *merged_row(void *from, uint32_t y)
 {
-    const image_kind_t kind = image_kind(o->picture);
-    const uint32_t height = m->whole.field[SUMS_HEIGHT];
-    const uint32_t rows = kind == IMAGE_PNG ? height : 1;
-    image_t image,
-            size = {.width = m->whole.field[SUMS_WIDTH], .height = height};
+    merge_t *m = from;
+    const uint32_t first = y / m->batch_rows * m->batch_rows;
 
-    if (kind == IMAGE_PFM) {
-        image_new_floats(&image, size.width, rows);
-    } else {
-        image_new_bytes(&image, size.width, rows);
+    if (first != m->batch_first) {
+        add_batch(m, first);
     }
-    if (kind != IMAGE_PNG) {
-        pnm_write_head(kind == IMAGE_PFM ? "PF" : "P6", &size, out->file);
-    }
-    for (uint32_t i = 0; i < height; i++) {
-        const uint32_t y = kind == IMAGE_PFM ? height - 1 - i : i;
-
-        add_rows(m, y);
-        develop_row(&image, &m->whole, m->sum, y, o->format);
-        if (kind != IMAGE_PNG) {
-            pnm_write_row(&image, out->file);
-        }
-    }
-    if (kind == IMAGE_PNG) {
-        image_write(&image, kind, out);
-    }
-    image_free(&image);
+    return m->batch + (size_t)m->whole.field[SUMS_WIDTH] * (y - first);
 }
 
 static void write_sums(merge_t *m, cli_out_t *out)
@@ -222,8 +317,7 @@ static void write_sums(merge_t *m, cli_out_t *out)
     sums_write_head(&to, &m->whole, out);
     for (uint32_t y = 0; y < m->whole.field[SUMS_HEIGHT]; y++) {
         if (sums_row_count(&m->whole, y) != 0) {
-            add_rows(m, y);
-            sums_write_row(&to, m->sum, m->whole.field[SUMS_WIDTH]);
+            sums_write_row(&to, merged_row(m, y), m->whole.field[SUMS_WIDTH]);
         }
     }
     sums_write_end(&to);
@@ -258,6 +352,7 @@ int main(int argc, char **argv)
 {
     options_t o = {.quiet = false};
     merge_t m;
+    develop_t how = {.row = merged_row, .from = &m};
     cli_out_t picture, save;
 
     options_parse(&program, argc, argv, &o);
@@ -267,8 +362,10 @@ int main(int argc, char **argv)
         warn_of_gaps(&m.whole);
     }
     if (o.picture != NULL) {
+        how.kind = image_kind(o.picture);
+        how.format = o.format;
         cli_out_open(&picture, o.picture);
-        write_picture(&m, &o, &picture);
+        develop_write(&m.whole, &how, &picture);
     }
     if (o.save != NULL) {
         cli_out_open(&save, o.save);
@@ -278,12 +375,6 @@ int main(int argc, char **argv)
     if (o.picture != NULL) {
         cli_out_commit(&picture);
     }
-    for (unsigned i = 0; i < o.parts.count; i++) {
-        sums_free(&m.parts[i].head);
-    }
-    sums_free(&m.whole);
-    free(m.parts);
-    free(m.sum);
-    free(m.add);
+    end_merge(&m);
     return CLI_DONE;
 }

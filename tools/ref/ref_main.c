@@ -33,18 +33,25 @@ static const program_t program = {.name = "qlux-ref",
 typedef struct {
     const ref_scene_t *scene;
     const render_options_t *options;
-    double *rgb; /* sums in radiance units */
+    double *rgb; /* sums in radiance units, of the rows asked for */
     ref_stats_t stats;
 } job_t;
+
+/* The sums of a row. */
+static double *row_of(const job_t *job, uint32_t y)
+{
+    const render_options_t *o = job->options;
+
+    return job->rgb + 3 * (size_t)o->settings.width * (y - o->rows.first);
+}
 
 static void draw(void *shared, void *own, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count)
 {
     const job_t *job = shared;
-    const ql_settings_t *settings = &job->options->settings;
 
-    ref_pixel(job->scene, settings, x, y, first, count,
-            job->rgb + 3 * ((size_t)settings->width * y + x), own);
+    ref_pixel(job->scene, &job->options->settings, x, y, first, count,
+            row_of(job, y) + 3 * (size_t)x, own);
 }
 
 static void collect(void *shared, void *own)
@@ -84,14 +91,42 @@ static void write_linear(const job_t *job, cli_out_t *out)
 {
     const render_options_t *o = job->options;
     const double scale = job->scene->unit / (o->samples.end - o->samples.first);
-    image_t image;
+    image_writer_t writer;
+    image_t line;
 
-    image_new_floats(&image, o->settings.width, o->settings.height);
-    for (size_t i = 0; i < 3 * (size_t)image.width * image.height; i++) {
-        image.floats[i] = (float)(job->rgb[i] * scale);
+    image_new_floats(&line, o->settings.width, 1);
+    image_begin(&writer, IMAGE_PFM, line.width, o->settings.height, out);
+    for (uint32_t i = 0; i < o->settings.height; i++) {
+        const uint32_t y = image_row_at(&writer, i);
+        const bool is_there = o->rows.first <= y && y < o->rows.end;
+
+        for (uint32_t k = 0; k < 3 * line.width; k++) {
+            line.floats[k] = is_there ? (float)(row_of(job, y)[k] * scale) : 0;
+        }
+        image_row(&writer, &line);
     }
-    image_write(&image, IMAGE_PFM, out);
-    image_free(&image);
+    image_end(&writer);
+    image_free(&line);
+}
+
+/* A row of the core's sums. */
+typedef struct {
+    const job_t *job;
+    ql_sum_t *row;
+} rounded_t;
+
+static const ql_sum_t *round_row(void *from, uint32_t y)
+{
+    const rounded_t *rounded = from;
+    const double *rgb = row_of(rounded->job, y);
+
+    for (uint32_t k = 0; k < 3u * rounded->job->options->settings.width; k++) {
+        const double sum = ldexp(rgb[k], QL_SUM_BITS) + 0.5;
+
+        rounded->row[k / 3].rgb[k % 3] =
+                sum < ldexp(1, 63) ? (uint64_t)sum : UINT64_MAX;
+    }
+    return rounded->row;
 }
 
 /* As a display shows it, by way of the core's sums. */
@@ -101,7 +136,8 @@ static void write_display(const job_t *job, cli_out_t *out)
     const ql_blob_header_t *h = job->scene->blob->header;
     const sums_range_t range = {
             o->rows.first, o->rows.end, o->samples.first, o->samples.end};
-    sums_range_t clash;
+    rounded_t rounded = {job, cli_alloc(o->settings.width, sizeof(ql_sum_t))};
+    const develop_t how = {o->kind, o->format, round_row, &rounded};
     sums_t sums;
 
     memset(&sums, 0, sizeof sums);
@@ -111,17 +147,11 @@ static void write_display(const job_t *job, cli_out_t *out)
             (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->radiance_exp));
     sums.field[SUMS_EXPOSURE_Q8] =
             (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->exposure_q8));
-    sums_new(&sums);
-    (void)sums_claim(&sums, &range, &clash);
-    for (size_t i = 0; i < 3 * (size_t)o->settings.width * o->settings.height;
-            i++) {
-        const double sum = ldexp(job->rgb[i], QL_SUM_BITS) + 0.5;
-
-        sums.pixels[i / 3].rgb[i % 3] =
-                sum < ldexp(1, 63) ? (uint64_t)sum : UINT64_MAX;
-    }
-    develop_write(&sums, o->kind, o->format, out);
+    sums_new(&sums, 0, 0);
+    sums_settle_one(&sums, &range);
+    develop_write(&sums, &how, out);
     sums_free(&sums);
+    free(rounded.row);
 }
 
 static void print_stats(const ref_stats_t *s, double seconds)
@@ -163,9 +193,9 @@ int main(int argc, char **argv)
     memset(&job, 0, sizeof job);
     job.scene = &scene;
     job.options = &options;
-    job.rgb =
-            cli_alloc((size_t)options.settings.width * options.settings.height,
-                    3 * sizeof *job.rgb);
+    job.rgb = cli_alloc((size_t)options.settings.width *
+                                (options.rows.end - options.rows.first),
+            3 * sizeof *job.rgb);
     cli_out_open(&out, options.picture);
     render(&job);
     if (options.kind == IMAGE_PFM) {

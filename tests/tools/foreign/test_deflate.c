@@ -130,18 +130,92 @@ TEST(every_code_that_zlib_writes_is_read)
     free(text.bytes);
 }
 
-/* By a reader that another program's streams have shown to be right. */
+/* What a stream writes into memory. */
+typedef struct {
+    uint8_t bytes[1 << 18];
+    size_t size;
+} packed_t;
+
+static void collect(void *to, const uint8_t *bytes, size_t size)
+{
+    packed_t *packed = to;
+
+    CHECK(size <= sizeof packed->bytes - packed->size, "%zu more bytes", size);
+    memcpy(packed->bytes + packed->size, bytes, size);
+    packed->size += size;
+}
+
+/* By a reader that another program's streams have shown to be right; handed
+ * over a piece at a time. */
+static size_t check_comes_back(const text_t *text, size_t piece)
+{
+    packed_t *packed = cli_alloc(1, sizeof *packed);
+    deflate_t *stream = deflate_begin(collect, packed);
+    size_t size;
+
+    for (size_t at = 0; at < text->size; at += piece) {
+        const size_t left = text->size - at;
+
+        deflate_put(stream, text->bytes + at, left < piece ? left : piece);
+    }
+    deflate_end(stream);
+    check_stream(packed->bytes, packed->size, text, "packed by ourselves");
+    size = packed->size;
+    free(packed);
+    return size;
+}
+
 TEST(every_code_comes_back)
 {
     text_t text;
-    uint8_t *packed;
     size_t size;
 
     write_codes(&text);
-    packed = deflate_pack(text.bytes, text.size, &size);
+    size = check_comes_back(&text, text.size);
     CHECK(size < 7500, "packed to %zu bytes", size);
-    check_stream(packed, size, &text, "packed by ourselves");
-    free(packed);
+    CHECK(check_comes_back(&text, 1) == size &&
+                    check_comes_back(&text, 49152) == size,
+            "%s", "pieces change the stream");
+    free(text.bytes);
+}
+
+/* Noise, which is stored, and what repeats. */
+TEST(data_of_every_length_come_back)
+{
+    text_t text = {cli_alloc(1 << 18, 1), 0, 1};
+
+    for (size_t n = 0; n < 200000; n = n < 600 ? n + 1 : n * 2 + 1) {
+        text.size = 0;
+        if (n % 3 == 0) {
+            add_noise(&text, n);
+        }
+        for (; text.size < n; text.size++) {
+            text.bytes[text.size] = (uint8_t)(text.size / 7 % (n % 5 + 1));
+        }
+        (void)check_comes_back(&text, n / 3 + 1);
+    }
+    free(text.bytes);
+}
+
+/* What is a window away from its like is found there, one byte farther is not,
+ * in whatever block it is. Noise of seven bits costs its bytes. */
+TEST(matches_reach_back_a_window_across_blocks)
+{
+    enum { NOISE = 32768 + 65000, HEAD = 2, TAIL = 4 };
+    text_t text = {cli_alloc(1 << 18, 1), 0, 7};
+    size_t near, far;
+
+    add_noise(&text, NOISE);
+    for (size_t i = 0; i < NOISE; i++) {
+        text.bytes[i] &= 0x7f;
+    }
+    repeat(&text, 258, 32768);
+    near = check_comes_back(&text, 1000);
+    text.size = NOISE;
+    repeat(&text, 258, 32769);
+    far = check_comes_back(&text, 1000);
+    CHECK(near < far - 200 && far <= NOISE + 258 + HEAD + 2 * 5 + TAIL,
+            "%zu and %zu bytes", near, far);
     free(text.bytes);
 }
 
@@ -437,6 +511,8 @@ int main(int argc, char **argv)
     TEST_BEGIN("tools/test_deflate", argc, argv);
     RUN(every_code_that_zlib_writes_is_read);
     RUN(every_code_comes_back);
+    RUN(data_of_every_length_come_back);
+    RUN(matches_reach_back_a_window_across_blocks);
     RUN(other_headers_are_refused);
     RUN(a_block_of_no_kind_is_refused);
     RUN(stored_blocks_are_checked);

@@ -55,16 +55,17 @@ static bool lines_agree(
 {
     uint8_t wanted[BYTES_MAX] = {0}, got[BYTES_MAX] = {0};
     const ql_output_t output = {format, wanted};
-    image_t image;
+    image_t line;
     bool ok = true;
 
-    develop(&image, sums, IMAGE_PPM, format);
+    image_new_bytes(&line, WIDTH, 1);
     for (uint16_t y = 0; y < HEIGHT; y++) {
         ql_render_line(render, y, &output, 1);
-        narrow(got, format, image.bytes + (size_t)3 * WIDTH * y);
+        develop_row(&line, sums, sums_pixels(sums, y), y, format);
+        narrow(got, format, line.bytes);
         ok = ok && memcmp(got, wanted, QL_LINE_BYTES(WIDTH, format)) == 0;
     }
-    image_free(&image);
+    image_free(&line);
     return ok;
 }
 
@@ -74,7 +75,6 @@ static uint64_t fill_sums(
 {
     sums_range_t all = {0, HEIGHT, 0, 0};
     const ql_blob_header_t *h = render->scene->header;
-    sums_range_t clash;
     sim_stats_t stats;
 
     memset(sums, 0, sizeof *sums);
@@ -84,9 +84,9 @@ static uint64_t fill_sums(
             (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->radiance_exp));
     sums->field[SUMS_EXPOSURE_Q8] =
             (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->exposure_q8));
-    sums_new(sums);
+    sums_new(sums, 0, HEIGHT);
     all.sample_end = render->settings.spp;
-    (void)sums_claim(sums, &all, &clash);
+    sums_settle_one(sums, &all);
     check(sim_render(sums, render, &all, 3, true, &stats), "the_simulator",
             finishes);
     return stats.paths;
@@ -148,7 +148,6 @@ static void compare_steps(const ql_scene_t *scene)
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
         const uint32_t count = ranges[i].end - ranges[i].first;
         const sums_range_t range = {0, 1, ranges[i].first, ranges[i].end};
-        sums_range_t clash;
         sim_stats_t stats;
         sums_t sums;
         bool same = true;
@@ -157,8 +156,8 @@ static void compare_steps(const ql_scene_t *scene)
         memset(&sums, 0, sizeof sums);
         sums.field[SUMS_WIDTH] = 2;
         sums.field[SUMS_HEIGHT] = 1;
-        sums_new(&sums);
-        (void)sums_claim(&sums, &range, &clash);
+        sums_new(&sums, 0, 1);
+        sums_settle_one(&sums, &range);
         same = sim_render(&sums, &render, &range, 1, true, &stats) &&
                stats.paths == 2 * (uint64_t)count;
         for (uint16_t x = 0; x < 2; x++) {
@@ -177,22 +176,22 @@ static void compare_steps(const ql_scene_t *scene)
 static void compare_ties(void)
 {
     const sums_range_t one = {0, 1, 0, 1};
-    sums_range_t clash;
-    image_t image;
+    image_t line;
     sums_t sums;
 
     memset(&sums, 0, sizeof sums);
     sums.field[SUMS_WIDTH] = sums.field[SUMS_HEIGHT] = 1;
-    sums_new(&sums);
-    (void)sums_claim(&sums, &one, &clash);
+    sums_new(&sums, 0, 1);
+    sums_settle_one(&sums, &one);
     sums.pixels[0].rgb[0] = (1u << 24) + 1;
     sums.pixels[0].rgb[1] = (1u << 24) + 3;
     sums.pixels[0].rgb[2] = (1ull << 32) + (1u << 8) + 1;
-    develop(&image, &sums, IMAGE_PFM, QL_FORMAT_RGB888);
-    check(image.floats[0] == 1 && image.floats[1] == 1 + 0x1p-22f &&
-                    image.floats[2] == 256 + 0x1p-15f,
+    image_new_floats(&line, 1, 1);
+    develop_row(&line, &sums, sums.pixels, 0, QL_FORMAT_RGB888);
+    check(line.floats[0] == 1 && line.floats[1] == 1 + 0x1p-22f &&
+                    line.floats[2] == 256 + 0x1p-15f,
             "means_are_rounded_to_the_nearest_float", "ties_to_even");
-    image_free(&image);
+    image_free(&line);
     sums_free(&sums);
 }
 

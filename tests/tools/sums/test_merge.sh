@@ -117,28 +117,50 @@ say a_picture_of_16384x16384_takes_less_than_60_megabytes $?
     [ "$(wc -c <short.pfm)" -eq $((19 + 12 * 16384 * 1024)) ]
 say so_do_a_ppm_and_a_pfm $?
 rm short.ppm short.pfm
-(ulimit -v 60000 && exec "$merge" tall0.qls --quiet -o no.png) 2>err.txt
+# 20 MB of pixels, held three times by who compresses them as one.
+for i in 0 1; do
+    "$patch" row$i.qls 8 90010000 >short$i.qls
+done
+(ulimit -v 40000 && "$merge" short0.qls short1.qls --quiet -o short.png) &&
+    "$merge" short0.qls short1.qls --quiet -o short.ppm &&
+    "$build/qlux-diff" short.ppm short.png --max-relmse 0 >out.txt
+say so_does_a_png $?
+rm short.*
+(ulimit -v 12000 && exec "$merge" tall0.qls --quiet -o no.png) 2>err.txt
 [ $? -eq 3 ] && grep -q '^qlux-merge: out of memory for ' err.txt &&
     [ ! -e no.png ]
 say what_does_not_fit_says_so $?
+large="--size 16384x16384 --spp 1 --threads 1 --quiet"
+# shellcheck disable=SC2086
+(ulimit -v 60000 && exec "$sim" scene.qlb $large --save-sums no.qls) 2>err.txt
+[ $? -eq 3 ] && [ ! -e no.qls ] && [ "$(cat err.txt)" = "qlux-sim: out of \
+memory for the sums of rows 0:16384, 6442450944 bytes; fewer rows take less" ]
+say so_does_the_simulator $?
+# shellcheck disable=SC2086
+(ulimit -v 60000 && "$sim" scene.qlb $large --rows 9999:10001 \
+    --save-sums rows.qls && "$build/qlux-ref" scene.qlb $large --rows 0:1 \
+    -o null.ppm && "$merge" rows.qls --quiet --save-sums sum.qls) &&
+    cmp -s rows.qls sum.qls
+say some_rows_of_a_large_picture_take_the_memory_of_some $?
 # More bytes than a number of 32 bits counts, of which none is on the disk.
 truncate -s $((16384 * 16384 * 24 + 96)) bad.qls
 "$merge" bad.qls -o no.ppm 2>err.txt
 [ $? -eq 2 ] && grep -q 'byte 0: expected a sum file (QLS3)' err.txt
 say a_file_of_6_gigabytes_is_opened $?
 rm bad.qls
-rows="--size 3x30 --spp 1 --quiet"
-y=0
-while [ $y -lt 30 ]; do
-    # shellcheck disable=SC2086
-    "$sim" scene.qlb $rows --rows $y:$((y + 1)) --save-sums y$y.qls
-    y=$((y + 1))
+# A sample of each pixel in each part.
+for k in $(seq 0 499); do
+    hex=$(printf '%02x%02x0000%02x%02x0000' $((k % 256)) $((k / 256)) \
+        $(((k + 1) % 256)) $(((k + 1) / 256)))
+    "$patch" part0.qls 84 "$hex" >"s$k.qls"
 done
-# shellcheck disable=SC2086
-"$sim" scene.qlb $rows --save-sums whole.qls -o whole.pfm
-(ulimit -S -n 20 && "$merge" y*.qls --save-sums sum.qls -o sum.pfm) &&
-    cmp -s sum.qls whole.qls && cmp -s sum.pfm whole.pfm
-say more_parts_than_files_may_be_open_are_merged $?
+(ulimit -n 64 && "$merge" s[0-9]*.qls --save-sums sum.qls -o sum.pfm) &&
+    [ "$(od -An -w20 -tu4 -j 72 -N 20 sum.qls | tr -s ' ')" = \
+        ' 1 0 1 0 500' ] &&
+    [ "$(sums sum.qls)" = "$(sums part0.qls | while read -r hex; do
+        printf '%016x\n' $((0x$hex * 500)); done)" ]
+say parts_by_the_hundred_with_few_open_files_are_merged $?
+rm s[0-9]*.qls
 
 # ---- Parts of two pictures
 

@@ -1,8 +1,12 @@
 /* test_sums.c - sum files: ranges in one form, whole numbers, any turned bit */
 /* SPDX-License-Identifier: MIT */
 
+#define _XOPEN_SOURCE     700 /* pwrite() */
+#define _FILE_OFFSET_BITS 64
+
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "lib/render/sums.h"
 #include "support/ql_test.h"
@@ -17,7 +21,7 @@ static void begin(sums_t *sums)
     sums->field[SUMS_DIR_BITS] = 22;
     sums->field[SUMS_LIGHT_SAMPLES] = 1;
     sums->field[SUMS_TABLE_BITS] = 7;
-    sums_new(sums);
+    sums_new(sums, 0, HEIGHT);
 }
 
 /* The bytes of a sum file, and how many. */
@@ -37,11 +41,11 @@ static uint8_t *encode(sums_t *sums, size_t *size)
 
 /* ---- Ranges -------------------------------------------------------------- */
 
-/* Claim ranges, write them, and say how they come out: "0:2 0:8, ...". */
+/* Write ranges, and say how they come out: "0:2 0:8, ...". */
 static void check_joined(
         const sums_range_t *ranges, unsigned n, const char *want)
 {
-    sums_range_t clash;
+    uint32_t clash[2];
     sums_t sums, back;
     char text[200] = "";
     size_t size, where;
@@ -49,13 +53,14 @@ static void check_joined(
 
     begin(&sums);
     for (unsigned i = 0; i < n; i++) {
-        CHECK(sums_claim(&sums, ranges + i, &clash), "range %u", i);
+        ranges_add(&sums.ranges, ranges + i);
     }
+    CHECK(sums_settle(&sums, clash), "%s", "they overlap");
     data = encode(&sums, &size);
     sums_free(&sums);
     CHECK(sums_decode(&back, data, size, &where) == NULL, "at %zu", where);
-    for (uint32_t i = 0; i < back.range_count; i++) {
-        const sums_range_t *r = back.ranges + i;
+    for (uint32_t i = 0; i < back.ranges.count; i++) {
+        const sums_range_t *r = back.ranges.items + i;
         const size_t at = strlen(text);
 
         snprintf(text + at, sizeof text - at, "%s%u:%u %u:%u",
@@ -85,37 +90,15 @@ TEST(ranges_are_joined_where_they_can_be_and_nowhere_else)
     JOINED("0:3 2:4, 3:5 2:5", {0, 3, 2, 4}, {3, 5, 2, 5});
     JOINED("0:3 1:4, 3:5 2:4", {0, 3, 1, 4}, {3, 5, 2, 4});
     /* one range above two, two above one */
-    JOINED("0:1 0:2, 1:2 0:2, 1:2 3:4", {0, 1, 0, 2}, {1, 2, 0, 2},
-            {1, 2, 3, 4});
-    JOINED("0:1 0:2, 0:1 3:4, 1:2 3:4", {0, 1, 0, 2}, {0, 2, 3, 4});
+    JOINED("0:2 0:2, 1:2 3:4", {0, 1, 0, 2}, {1, 2, 0, 2}, {1, 2, 3, 4});
+    JOINED("0:1 0:2, 0:2 3:4", {0, 1, 0, 2}, {0, 2, 3, 4});
     /* two above the same two; above two of which the second differs */
     JOINED("0:3 0:2, 0:3 3:4", {0, 1, 0, 2}, {1, 3, 0, 2}, {0, 2, 3, 4},
             {2, 3, 3, 4});
-    JOINED("0:1 0:2, 0:1 3:4, 1:3 0:2, 1:3 3:5", {0, 1, 0, 2}, {0, 1, 3, 4},
+    JOINED("0:3 0:2, 0:1 3:4, 1:3 3:5", {0, 1, 0, 2}, {0, 1, 3, 4},
             {1, 3, 0, 2}, {1, 3, 3, 5});
     /* cut by others, and made whole again */
     JOINED("1:7 5:9", {1, 4, 5, 7}, {2, 7, 7, 9}, {4, 7, 5, 7}, {1, 2, 7, 9});
-}
-
-/* The field's own count says how many there are: none of them needs to be
- * claimed one by one. */
-TEST(ranges_have_no_limit)
-{
-    const sums_range_t one = {0, 1, 0, 1}, more = {1, 2, 0, 1};
-    sums_range_t clash = {0, 0, 0, 0};
-    sums_t sums;
-
-    begin(&sums);
-    sums.ranges = cli_alloc(65536, sizeof *sums.ranges);
-    sums.range_count = 65535;
-    CHECK(sums_claim(&sums, &one, &clash), "%s", "65536 are refused");
-    CHECK(sums_claim(&sums, &more, &clash), "%s", "65537 are refused");
-    CHECK(sums.range_count == 65537, "%lu ranges",
-            (unsigned long)sums.range_count);
-    CHECK(!sums_claim(&sums, &more, &clash), "%s", "one is taken twice");
-    CHECK(memcmp(&clash, &more, sizeof clash) == 0, "named row %u",
-            (unsigned)clash.row_first);
-    sums_free(&sums);
 }
 
 /* ---- Numbers and damage -------------------------------------------------- */
@@ -133,12 +116,11 @@ static uint64_t sum_of(size_t i)
 static uint8_t *example(size_t *size)
 {
     const sums_range_t range = {1, 4, 3, 1u << 24};
-    sums_range_t clash;
     uint8_t *data;
     sums_t sums;
 
     begin(&sums);
-    (void)sums_claim(&sums, &range, &clash);
+    sums_settle_one(&sums, &range);
     for (size_t i = 3 * WIDTH; i < 3 * WIDTH * 4; i++) {
         sums.pixels[i / 3].rgb[i % 3] = sum_of(i);
     }
@@ -200,13 +182,55 @@ TEST(every_turned_bit_is_noticed)
     free(data);
 }
 
+/* 16384 x 16384: a file of 6.4 GB, all holes but for two rows. Rows at the
+ * front are not held, so their places are not counted. */
+TEST(rows_beyond_2_to_the_32_bytes_are_read)
+{
+    enum { SIDE = 16384, ROW_BYTES = 24 * SIDE };
+    static const uint32_t rows[] = {11000, SIDE - 1};
+    sums_rows_t held[] = {{0, 3, 0}, {5, SIDE, 3}};
+    FILE *large = tmpfile();
+    sums_file_t file = {.path = "large",
+            .fd = fileno(large),
+            .base = 7,
+            .rows_at = 92,
+            .rows = held,
+            .row_count = 2};
+    ql_sum_t *row = cli_alloc(SIDE, sizeof *row);
+
+    file.head.field[SUMS_WIDTH] = SIDE;
+    for (unsigned i = 0; i < 2; i++) {
+        const uint64_t at = 7 + 92 + (uint64_t)ROW_BYTES * (rows[i] - 2) +
+                            24 * (uint64_t)(SIDE - 1);
+        const uint8_t byte = (uint8_t)(rows[i] % 251);
+
+        CHECK(at >> 32 != 0, "byte %llu", (unsigned long long)at);
+        CHECK(pwrite(file.fd, &byte, 1, (off_t)at) == 1, "row %u", rows[i]);
+    }
+    CHECK(ftruncate(file.fd, (off_t)ROW_BYTES * SIDE + 99) == 0, "%s", "size");
+    for (unsigned i = 0; i < 2; i++) {
+        CHECK(sums_row(&file, rows[i], row) &&
+                        row[SIDE - 1].rgb[0] == rows[i] % 251 &&
+                        row[0].rgb[0] == 0,
+                "row %u", rows[i]);
+    }
+    CHECK(!sums_row(&file, 3, row) && !sums_row(&file, 4, row) &&
+                    sums_row(&file, 5, row),
+            "%s", "rows that are not held");
+    CHECK(sums_holds(&file, 4, 6) && !sums_holds(&file, 3, 5) &&
+                    sums_holds(&file, 0, SIDE),
+            "%s", "ranges of rows");
+    free(row);
+    fclose(large);
+}
+
 int main(int argc, char **argv)
 {
     cli_begin("test_sums");
     TEST_BEGIN("tools/test_sums", argc, argv);
     RUN(ranges_are_joined_where_they_can_be_and_nowhere_else);
-    RUN(ranges_have_no_limit);
     RUN(sums_of_all_64_bits_lie_where_the_header_says);
     RUN(every_turned_bit_is_noticed);
+    RUN(rows_beyond_2_to_the_32_bytes_are_read);
     return TEST_END();
 }

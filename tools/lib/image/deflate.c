@@ -16,7 +16,7 @@ enum {
     LENGTH_CODES = 29, /* symbols 257.. */
     DISTANCE_CODES = 30,
     CODE_BITS_MAX = 15,
-    STORED_MAX = 65535,
+    BLOCK = 65535, /* bytes: the most that a stored one holds */
     HASH_BITS = 15
 };
 
@@ -33,9 +33,10 @@ static const uint8_t distance_extra[DISTANCE_CODES] = {0, 0, 0, 0, 1, 1, 2, 2,
         3, 3, 4, 4, 5, 5, 6, 6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13,
         13};
 
-static uint32_t adler32(const uint8_t *data, size_t size)
+/* Go on with the check value of RFC 1950; 1 begins it. */
+static uint32_t adler32(uint32_t adler, const uint8_t *data, size_t size)
 {
-    uint32_t a = 1, b = 0;
+    uint32_t a = adler & 0xffffu, b = adler >> 16;
 
     for (size_t i = 0; i < size; i++) {
         a = (a + data[i]) % 65521;
@@ -52,6 +53,21 @@ typedef struct {
     uint32_t bits; /* waiting, first in the lowest */
     unsigned count;
 } writer_t;
+
+/* What comes waits until it is a block; what went stays for a window. Places
+ * are counted from the first byte that ever came, so a picture may have more
+ * bytes than memory. */
+struct deflate {
+    deflate_sink_t *sink;
+    void *to;
+    writer_t writer;
+    uint8_t bytes[WINDOW + BLOCK];
+    uint64_t base;  /* place of the first of them */
+    size_t history; /* of them, went already */
+    size_t size;    /* of them, there */
+    uint32_t adler;
+    uint64_t last[1 << HASH_BITS]; /* place of a hash plus one; 0 is none */
+};
 
 /* Append n <= 16 bits, lowest first. */
 static void put_bits(writer_t *w, uint32_t value, unsigned n)
@@ -129,73 +145,119 @@ static unsigned match_length(const uint8_t *a, const uint8_t *b, size_t limit)
     return n;
 }
 
-/* One block of fixed codes; matches with the last place of equal hash. */
-static void put_fixed_block(writer_t *w, const uint8_t *data, size_t size)
-{
-    size_t *last = cli_alloc((size_t)1 << HASH_BITS, sizeof *last);
-    size_t at = 0;
+/* Do blocks follow it? As a stream has it. */
+typedef enum { MORE = 0, LAST = 1 } block_t;
 
-    put_bits(w, 1, 1); /* the last block */
+/* A block of fixed codes; matches with the last place of equal hash. */
+static void put_fixed_block(deflate_t *d, block_t kind)
+{
+    writer_t *w = &d->writer;
+    size_t at = d->history;
+
+    put_bits(w, kind, 1);
     put_bits(w, 1, 2); /* of fixed codes */
-    while (at < size) {
+    while (at < d->size) {
+        const uint64_t place = d->base + at;
+        uint64_t distance = 0;
         unsigned length = 0;
-        size_t from = 0;
-        if (size - at >= MATCH_MIN) {
-            const unsigned h = hash3(data + at);
-            from = last[h]; /* plus one; 0 is none */
-            if (from != 0 && at - (from - 1) <= WINDOW) {
-                length = match_length(data + from - 1, data + at, size - at);
+
+        if (d->size - at >= MATCH_MIN) {
+            const unsigned h = hash3(d->bytes + at);
+
+            distance = d->last[h] != 0 ? place - (d->last[h] - 1) : 0;
+            if (distance != 0 && distance <= WINDOW) { /* and so in bytes */
+                length = match_length(d->bytes + at - (size_t)distance,
+                        d->bytes + at, d->size - at);
             }
-            last[h] = at + 1;
+            d->last[h] = place + 1;
         }
         if (length >= MATCH_MIN) {
-            put_match(w, length, (unsigned)(at - (from - 1)));
+            put_match(w, length, (unsigned)distance); /* at most WINDOW */
             at += length;
         } else {
-            put_symbol(w, data[at++]);
+            put_symbol(w, d->bytes[at++]);
         }
     }
     put_symbol(w, END_OF_BLOCK);
-    put_bits(w, 0, 7); /* fill the last byte */
-    w->count = 0;
-    w->bits = 0;
-    free(last);
 }
 
-static void put_stored_blocks(writer_t *w, const uint8_t *data, size_t size)
+/* What waits as it is. */
+static void put_stored_block(deflate_t *d, block_t kind)
 {
-    do {
-        const size_t n = size < STORED_MAX ? size : STORED_MAX;
-        const uint8_t head[5] = {n == size, (uint8_t)n, (uint8_t)(n >> 8),
-                (uint8_t)~n, (uint8_t)(~n >> 8)};
-        memcpy(w->bytes + w->size, head, sizeof head);
-        memcpy(w->bytes + w->size + sizeof head, data, n);
-        w->size += sizeof head + n;
+    const size_t n = d->size - d->history;
+    writer_t *w = &d->writer;
+
+    put_bits(w, kind, 1);
+    put_bits(w, 0, 2); /* stored */
+    put_bits(w, 0, (8 - w->count) % 8);
+    put_bits(w, (uint32_t)n, 16);
+    put_bits(w, (uint32_t)~n & 0xffffu, 16);
+    memcpy(w->bytes + w->size, d->bytes + d->history, n);
+    w->size += n;
+}
+
+/* All that waits as one block, whichever is shorter; keep a window of it. */
+static void put_block(deflate_t *d, block_t kind)
+{
+    const size_t n = d->size - d->history;
+    const writer_t before = d->writer;
+    size_t keep;
+
+    d->adler = adler32(d->adler, d->bytes + d->history, n);
+    put_fixed_block(d, kind);
+    if (d->writer.size - before.size > n + 5) {
+        d->writer = before;
+        put_stored_block(d, kind);
+    }
+    if (kind == LAST) {
+        put_bits(&d->writer, 0, (8 - d->writer.count) % 8);
+        for (unsigned i = 0; i < 4; i++) {
+            put_bits(&d->writer, d->adler >> (24 - 8 * i) & 0xffu, 8);
+        }
+    }
+    d->sink(d->to, d->writer.bytes, d->writer.size);
+    d->writer.size = 0;
+    keep = d->size < WINDOW ? d->size : WINDOW;
+    memmove(d->bytes, d->bytes + d->size - keep, keep);
+    d->base += d->size - keep;
+    d->history = d->size = keep;
+}
+
+deflate_t *deflate_begin(deflate_sink_t *sink, void *to)
+{
+    deflate_t *d = cli_alloc(1, sizeof *d);
+
+    d->sink = sink;
+    d->to = to;
+    d->adler = 1;
+    /* A literal has at most 9 bits, a match fewer a byte. */
+    d->writer.bytes = cli_alloc(BLOCK + BLOCK / 8 + 32, 1);
+    put_bits(&d->writer, 0x78, 8); /* deflate, 32 KiB window */
+    put_bits(&d->writer, 0x01, 8); /* makes the two a multiple of 31 */
+    return d;
+}
+
+void deflate_put(deflate_t *d, const uint8_t *data, size_t size)
+{
+    while (size > 0) {
+        const size_t room = BLOCK - (d->size - d->history);
+        const size_t n = size < room ? size : room;
+
+        if (n == 0) {
+            put_block(d, MORE);
+        }
+        memcpy(d->bytes + d->size, data, n);
+        d->size += n;
         data += n;
         size -= n;
-    } while (size > 0);
+    }
 }
 
-uint8_t *deflate_pack(const uint8_t *data, size_t size, size_t *packed_size)
+void deflate_end(deflate_t *d)
 {
-    const size_t stored = size + 5 * (size / STORED_MAX + 1) + 2;
-    const uint32_t adler = adler32(data, size);
-    writer_t w = {NULL, 2, 0, 0};
-
-    /* A literal has at most 9 bits, a match fewer per byte. */
-    w.bytes = cli_alloc(stored + size / 8 + 16, 1);
-    w.bytes[0] = 0x78; /* deflate, 32 KiB window */
-    w.bytes[1] = 0x01; /* makes the two a multiple of 31 */
-    put_fixed_block(&w, data, size);
-    if (w.size > stored) {
-        w.size = 2;
-        put_stored_blocks(&w, data, size);
-    }
-    for (unsigned i = 0; i < 4; i++) {
-        w.bytes[w.size++] = (uint8_t)(adler >> (24 - 8 * i));
-    }
-    *packed_size = w.size;
-    return w.bytes;
+    put_block(d, LAST);
+    free(d->writer.bytes);
+    free(d);
 }
 
 /* ---- Expand ------------------------------------------------------------ */
@@ -478,7 +540,7 @@ const char *deflate_unpack(const uint8_t *packed, size_t packed_size,
     for (unsigned i = 0; i < 4 && r.error == NULL; i++) {
         adler = adler << 8 | take_bits(&r, 8);
     }
-    if (r.error == NULL && adler != adler32(data, size)) {
+    if (r.error == NULL && adler != adler32(1, data, size)) {
         r.error = "the Adler-32 does not match";
     }
     *where = r.at;

@@ -52,17 +52,61 @@ void image_read(image_t *image, const char *path)
     free(data);
 }
 
-void image_write(const image_t *image, image_kind_t kind, cli_out_t *out)
+void image_begin(image_writer_t *writer, image_kind_t kind, uint32_t width,
+        uint32_t height, cli_out_t *out)
 {
-    switch (kind) {
+    writer->kind = kind;
+    writer->width = width;
+    writer->height = height;
+    writer->file = out->file;
+    writer->png = NULL;
+    if (kind == IMAGE_PNG) {
+        writer->png = png_begin(width, height, out->file);
+    } else {
+        pnm_write_head(
+                kind == IMAGE_PFM ? "PF" : "P6", width, height, out->file);
+    }
+}
+
+uint32_t image_row_at(const image_writer_t *writer, uint32_t i)
+{
+    return writer->kind == IMAGE_PFM ? writer->height - 1 - i : i;
+}
+
+void image_row(image_writer_t *writer, const image_t *line)
+{
+    switch (writer->kind) {
     case IMAGE_PPM:
-        pnm_write_ppm(image, out->file);
+        pnm_write_bytes(line->bytes, writer->width, writer->file);
         break;
     case IMAGE_PFM:
-        pnm_write_pfm(image, out->file);
+        pnm_write_floats(line->floats, writer->width, writer->file);
         break;
     case IMAGE_PNG:
-        png_write(image, out->file);
+        png_row(writer->png, line->bytes);
         break;
     }
+}
+
+void image_end(image_writer_t *writer)
+{
+    if (writer->png != NULL) {
+        png_end(writer->png);
+    }
+}
+
+void image_write(const image_t *image, image_kind_t kind, cli_out_t *out)
+{
+    image_writer_t writer;
+    image_t line = *image;
+
+    image_begin(&writer, kind, image->width, image->height, out);
+    for (uint32_t i = 0; i < image->height; i++) {
+        const size_t at = 3 * (size_t)image->width * image_row_at(&writer, i);
+
+        line.bytes = image->bytes != NULL ? image->bytes + at : NULL;
+        line.floats = image->floats != NULL ? image->floats + at : NULL;
+        image_row(&writer, &line);
+    }
+    image_end(&writer);
 }

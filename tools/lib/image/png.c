@@ -192,7 +192,7 @@ static void put_chunk(
 {
     uint8_t word[8];
 
-    bytes_put_be32(word, (uint32_t)size); /* a picture has < 2^31 bytes */
+    bytes_put_be32(word, (uint32_t)size); /* a block has < 2^17 bytes */
     memcpy(word + 4, kind, 4);
     fwrite(word, 1, 8, file);
     fwrite(data, 1, size, file);
@@ -217,46 +217,63 @@ static uint64_t filter_row(unsigned filter, const uint8_t *row,
     return sum;
 }
 
-/* Rows, each behind its best filter. */
-static uint8_t *filter_image(const image_t *image, size_t *size)
-{
-    const size_t n = 3 * (size_t)image->width;
-    uint8_t *lines = cli_alloc(image->height, n + 1);
+struct png_writer {
+    FILE *file;
+    deflate_t *packed;
+    size_t row_bytes;
+    uint8_t *above; /* the last row, NULL before the first */
+    uint8_t *line;  /* filtered, behind its filter */
+};
 
-    for (size_t y = 0; y < image->height; y++) {
-        const uint8_t *row = image->bytes + n * y;
-        const uint8_t *above = y > 0 ? row - n : NULL;
-        uint8_t *out = lines + (n + 1) * y;
-        unsigned best = FILTER_NONE;
-        uint64_t least = UINT64_MAX;
-        for (unsigned f = FILTER_NONE; f <= FILTER_PAETH; f++) {
-            const uint64_t sum = filter_row(f, row, above, n, out);
-            if (sum < least) {
-                least = sum;
-                best = f;
-            }
-        }
-        filter_row(best, row, above, n, out);
-    }
-    *size = image->height * (n + 1);
-    return lines;
+static void put_packed(void *to, const uint8_t *bytes, size_t size)
+{
+    put_chunk(to, "IDAT", bytes, size);
 }
 
-void png_write(const image_t *image, FILE *file)
+png_writer_t *png_begin(uint32_t width, uint32_t height, FILE *file)
 {
     uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, 2, 0, 0, 0};
-    uint8_t *lines, *packed;
-    size_t size, packed_size;
+    png_writer_t *png = cli_alloc(1, sizeof *png);
 
-    bytes_put_be32(header, image->width);
-    bytes_put_be32(header + 4, image->height);
-    lines = filter_image(image, &size);
-    packed = deflate_pack(lines, size, &packed_size);
+    bytes_put_be32(header, width);
+    bytes_put_be32(header + 4, height);
     fwrite(signature, 1, sizeof signature, file);
     put_chunk(file, "IHDR", header, sizeof header);
     put_chunk(file, "sRGB", (const uint8_t *)"\0", 1);
-    put_chunk(file, "IDAT", packed, packed_size);
-    put_chunk(file, "IEND", header, 0);
-    free(lines);
-    free(packed);
+    png->file = file;
+    png->packed = deflate_begin(put_packed, file);
+    png->row_bytes = 3 * (size_t)width;
+    png->line = cli_alloc(png->row_bytes + 1, 1);
+    return png;
+}
+
+void png_row(png_writer_t *png, const uint8_t *row)
+{
+    const size_t n = png->row_bytes;
+    unsigned best = FILTER_NONE;
+    uint64_t least = UINT64_MAX;
+
+    for (unsigned f = FILTER_NONE; f <= FILTER_PAETH; f++) {
+        const uint64_t sum = filter_row(f, row, png->above, n, png->line);
+
+        if (sum < least) {
+            least = sum;
+            best = f;
+        }
+    }
+    filter_row(best, row, png->above, n, png->line);
+    deflate_put(png->packed, png->line, n + 1);
+    if (png->above == NULL) {
+        png->above = cli_alloc(n, 1);
+    }
+    memcpy(png->above, row, n);
+}
+
+void png_end(png_writer_t *png)
+{
+    deflate_end(png->packed);
+    put_chunk(png->file, "IEND", png->line, 0);
+    free(png->above);
+    free(png->line);
+    free(png);
 }

@@ -19,7 +19,16 @@
 const char *png_decode(
         image_t *image, const uint8_t *data, size_t size, size_t *where);
 
-/* Write a picture of bytes. */
-void png_write(const image_t *image, FILE *file);
+/* A PNG being written, RGB of 8 bits, a row at a time: its memory is that of
+ * two rows and a deflate_t. */
+typedef struct png_writer png_writer_t;
+
+png_writer_t *png_begin(uint32_t width, uint32_t height, FILE *file);
+
+/* The next row, from the top: 3 * width bytes, behind its best filter. */
+void png_row(png_writer_t *png, const uint8_t *row);
+
+/* After height rows: write what is left, and free it. */
+void png_end(png_writer_t *png);
 
 #endif

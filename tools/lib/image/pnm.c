@@ -193,44 +193,28 @@ const char *pnm_decode(
     return error;
 }
 
-void pnm_write_head(const char *magic, const image_t *size, FILE *file)
+void pnm_write_head(
+        const char *magic, uint32_t width, uint32_t height, FILE *file)
 {
-    fprintf(file, "%s\n%u %u\n%s\n", magic, (unsigned)size->width,
-            (unsigned)size->height, magic[1] == '6' ? "255" : "-1.0");
+    fprintf(file, "%s\n%u %u\n%s\n", magic, (unsigned)width, (unsigned)height,
+            magic[1] == '6' ? "255" : "-1.0");
 }
 
-void pnm_write_row(const image_t *line, FILE *file)
+void pnm_write_bytes(const uint8_t *row, uint32_t width, FILE *file)
 {
-    const size_t n = 3 * (size_t)line->width;
-    uint8_t *row;
+    fwrite(row, 3, width, file);
+}
+
+void pnm_write_floats(const float *row, uint32_t width, FILE *file)
+{
+    uint8_t pixel[12];
     uint32_t bits;
 
-    if (line->floats == NULL) {
-        fwrite(line->bytes, 1, n, file);
-        return;
-    }
-    row = cli_alloc(n, 4);
-    for (size_t i = 0; i < n; i++) {
-        memcpy(&bits, line->floats + i, sizeof bits);
-        bytes_put_le32(row + 4 * i, bits);
-    }
-    fwrite(row, 4, n, file);
-    free(row);
-}
-
-void pnm_write_ppm(const image_t *image, FILE *file)
-{
-    pnm_write_head("P6", image, file);
-    fwrite(image->bytes, (size_t)3 * image->width, image->height, file);
-}
-
-void pnm_write_pfm(const image_t *image, FILE *file)
-{
-    image_t line = *image;
-
-    pnm_write_head("PF", image, file);
-    for (size_t y = image->height; y-- > 0;) {
-        line.floats = image->floats + 3 * (size_t)image->width * y;
-        pnm_write_row(&line, file);
+    for (uint32_t x = 0; x < width; x++) {
+        for (unsigned k = 0; k < 3; k++) {
+            memcpy(&bits, row++, sizeof bits);
+            bytes_put_le32(pixel + 4 * k, bits);
+        }
+        fwrite(pixel, 1, sizeof pixel, file);
     }
 }

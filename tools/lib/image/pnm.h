@@ -21,15 +21,13 @@
 const char *pnm_decode(
         image_t *image, const uint8_t *data, size_t size, size_t *where);
 
-/* Write a picture of bytes. */
-void pnm_write_ppm(const image_t *image, FILE *file);
+/* Write what stands before the rows: of magic "P6", whose rows are bytes from
+ * the top, or "PF", whose rows are little-endian floats from the lowest. */
+void pnm_write_head(
+        const char *magic, uint32_t width, uint32_t height, FILE *file);
 
-/* Write a picture of floats, little-endian. */
-void pnm_write_pfm(const image_t *image, FILE *file);
-
-/* The same piece by piece: what stands before the rows, and a row of width
- * pixels. A PFM begins with the lowest row. */
-void pnm_write_head(const char *magic, const image_t *size, FILE *file);
-void pnm_write_row(const image_t *line, FILE *file);
+/* Write a row of width pixels. */
+void pnm_write_bytes(const uint8_t *row, uint32_t width, FILE *file);
+void pnm_write_floats(const float *row, uint32_t width, FILE *file);
 
 #endif

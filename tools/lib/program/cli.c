@@ -4,6 +4,7 @@
 #ifndef _XOPEN_SOURCE
 #define _XOPEN_SOURCE 700 /* realpath() */
 #endif
+#define _FILE_OFFSET_BITS 64
 
 #include "lib/program/cli.h"
 
@@ -18,8 +19,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#define OUT_MAX   16                /* files written at the same time */
-#define READ_MAX  ((size_t)1 << 30) /* no input of ours is larger */
+#define OUT_MAX   16 /* files written at the same time */
+#define READ_MAX  (((size_t)3 << 30) + 65536) /* a PFM of 2^28 pixels */
 #define READ_STEP ((size_t)1 << 16)
 
 enum { LINKS_MAX = 40, LINK_BYTES = 4096 };
@@ -182,11 +183,11 @@ static void *read_all(FILE *file, const char *path, size_t *size)
         if (used < room) {
             break;
         }
-        room *= 2;
-        if (room > READ_MAX) {
+        if (room == READ_MAX) {
             cli_fail(CLI_IO, "%s: too large to read (above %zu bytes)", path,
                     READ_MAX);
         }
+        room = room < READ_MAX / 2 ? 2 * room : READ_MAX;
         data = realloc(data, room + 1);
         if (data == NULL) {
             cli_fail(CLI_IO, "%s: out of memory for %zu bytes", path, room);

@@ -40,24 +40,14 @@ static float mean_float(uint64_t sum, uint32_t count, int exponent)
             (double)(quotient >> 1), exponent - (int)shift + (int)drop + 1);
 }
 
-/* Samples of a pixel in a row of so many. */
-static uint32_t count_of(
-        const sums_t *sums, uint32_t x, uint32_t y, uint32_t row)
-{
-    return sums->counts != NULL
-                   ? sums->counts[(size_t)sums->field[SUMS_WIDTH] * y + x]
-                   : row;
-}
-
 static void develop_linear(
         float *out, const sums_t *sums, const ql_sum_t *pixels, uint32_t y)
 {
     const int exponent = (int)sums_field_value(sums, SUMS_RADIANCE_EXP);
-    const uint32_t row = sums_row_count(sums, y);
 
     for (uint32_t x = 0; x < sums->field[SUMS_WIDTH]; x++) {
         for (unsigned k = 0; k < 3; k++) {
-            *out++ = mean_float(pixels[x].rgb[k], count_of(sums, x, y, row),
+            *out++ = mean_float(pixels[x].rgb[k], sums_count(sums, x, y),
                     exponent - QL_SUM_BITS);
         }
     }
@@ -67,7 +57,6 @@ static void develop_display(uint8_t *out, const sums_t *sums,
         const ql_sum_t *pixels, uint32_t y, ql_format_t format)
 {
     const uint32_t width = sums->field[SUMS_WIDTH];
-    const uint32_t row = sums_row_count(sums, y);
     const ql_real_t exposure =
             ql_film_exposure((int16_t)sums_field_value(sums, SUMS_RADIANCE_EXP),
                     (int16_t)sums_field_value(sums, SUMS_EXPOSURE_Q8));
@@ -75,50 +64,55 @@ static void develop_display(uint8_t *out, const sums_t *sums,
 
     for (uint32_t x = 0; x < width; x++) {
         ql_uq16_t linear[3];
-        ql_film_display(
-                pixels + x, count_of(sums, x, y, row), exposure, linear);
+        ql_film_display(pixels + x, sums_count(sums, x, y), exposure, linear);
         ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
     }
     widen_line(out, line, format, width);
     free(line);
 }
 
-void develop_row(image_t *image, const sums_t *sums, const ql_sum_t *pixels,
+void develop_row(image_t *line, const sums_t *sums, const ql_sum_t *pixels,
         uint32_t y, ql_format_t format)
 {
-    const size_t at = image->height > 1 ? 3 * (size_t)image->width * y : 0;
+    const size_t n = 3 * (size_t)line->width;
 
-    if (image->floats != NULL) {
-        develop_linear(image->floats + at, sums, pixels, y);
-    } else if (sums_row_count(sums, y) != 0) {
-        develop_display(image->bytes + at, sums, pixels, y, format);
-    } else { /* not even dithered */
-        memset(image->bytes + at, 0, 3 * (size_t)image->width);
+    if (sums_row_count(sums, y) == 0) { /* not even dithered */
+        if (line->floats != NULL) {
+            memset(line->floats, 0, n * sizeof *line->floats); /* as 0.0f */
+        } else {
+            memset(line->bytes, 0, n);
+        }
+    } else if (line->floats != NULL) {
+        develop_linear(line->floats, sums, pixels, y);
+    } else {
+        develop_display(line->bytes, sums, pixels, y, format);
     }
 }
 
-void develop(image_t *image, const sums_t *sums, image_kind_t kind,
-        ql_format_t format)
+void develop_write(const sums_t *sums, const develop_t *how, cli_out_t *out)
 {
     const uint32_t width = sums->field[SUMS_WIDTH];
     const uint32_t height = sums->field[SUMS_HEIGHT];
+    image_writer_t writer;
+    image_t line;
 
-    if (kind == IMAGE_PFM) {
-        image_new_floats(image, width, height);
+    if (how->kind == IMAGE_PFM) {
+        image_new_floats(&line, width, 1);
     } else {
-        image_new_bytes(image, width, height);
+        image_new_bytes(&line, width, 1);
     }
-    for (uint32_t y = 0; y < height; y++) {
-        develop_row(image, sums, sums->pixels + (size_t)width * y, y, format);
+    image_begin(&writer, how->kind, width, height, out);
+    for (uint32_t i = 0; i < height; i++) {
+        const uint32_t y = image_row_at(&writer, i);
+        const ql_sum_t *pixels = NULL;
+
+        if (sums_row_count(sums, y) != 0) {
+            pixels = how->row != NULL ? how->row(how->from, y)
+                                      : sums_pixels(sums, y);
+        }
+        develop_row(&line, sums, pixels, y, how->format);
+        image_row(&writer, &line);
     }
-}
-
-void develop_write(const sums_t *sums, image_kind_t kind, ql_format_t format,
-        cli_out_t *out)
-{
-    image_t image;
-
-    develop(&image, sums, kind, format);
-    image_write(&image, kind, out);
-    image_free(&image);
+    image_end(&writer);
+    image_free(&line);
 }

@@ -11,28 +11,31 @@
 /* Names of ql_format_t, as an option takes them; NULL ends them. */
 extern const char *const develop_formats[QL_FORMAT_COUNT + 1];
 
-/* Make a picture of the kind that a file needs.
- *
- *   image   -  out: to be freed
- *   sums    -  rows without samples stay black
- *   kind    -  IMAGE_PFM: linear radiance in the units of Ke, the mean rounded
- *              once to the nearest float, without exposure. Others: the bits
- *              of ql_render_line() in the format, widened by widen_line()
- *   format  -  of the display
- */
-void develop(image_t *image, const sums_t *sums, image_kind_t kind,
-        ql_format_t format);
+/* How a picture is made, and where its sums come from. */
+typedef struct {
+    image_kind_t kind;  /* IMAGE_PFM: linear radiance in the units of Ke, the
+                           mean rounded once to the nearest float, without
+                           exposure. Others: the bits of ql_render_line() in
+                           the format, widened by widen_line() */
+    ql_format_t format; /* of the display */
+    const ql_sum_t *(*row)(void *from, uint32_t y); /* width pixels, good until
+                           it is called again; NULL: those in memory */
+    void *from;
+} develop_t;
 
-/* Row y of it, from width pixels.
+/* Write a picture into an open file, a row at a time.
  *
- *   image   -  in and out: with floats or bytes; of one row, or the picture
- *   pixels  -  of the row; sums has no other part in it than fields and ranges
+ *   sums  -  fields and what sums_settle() knows; rows without samples are
+ *            black, and not asked for
  */
-void develop_row(image_t *image, const sums_t *sums, const ql_sum_t *pixels,
+void develop_write(const sums_t *sums, const develop_t *how, cli_out_t *out);
+
+/* One row of it.
+ *
+ *   line    -  in and out: of one row, with floats or bytes
+ *   pixels  -  of row y; not used if it is without samples
+ */
+void develop_row(image_t *line, const sums_t *sums, const ql_sum_t *pixels,
         uint32_t y, ql_format_t format);
-
-/* The same, straight into an open file. */
-void develop_write(const sums_t *sums, image_kind_t kind, ql_format_t format,
-        cli_out_t *out);
 
 #endif

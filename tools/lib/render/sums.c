@@ -9,8 +9,10 @@
 #include "lib/render/sums.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 #include "base/ql_crc.h"
@@ -24,6 +26,9 @@ enum {
     CRC_BYTES = 4,
     STEP_BYTES = 1 << 16
 };
+
+/* Files of more than 2^32 bytes: an off_t has 64 bits. */
+typedef char off_t_is_wide[sizeof(off_t) >= 8 ? 1 : -1];
 
 static const struct {
     const char *name;
@@ -57,167 +62,80 @@ unsigned sums_compare(const sums_t *a, const sums_t *b)
     return i;
 }
 
-void sums_new(sums_t *sums)
+void sums_new(sums_t *sums, uint32_t row_first, uint32_t row_end)
 {
-    sums->range_count = 0;
-    sums->ranges = NULL;
-    sums->counts = NULL;
-    sums->pixels = cli_alloc(sums->field[SUMS_HEIGHT],
-            sums->field[SUMS_WIDTH] * sizeof(ql_sum_t));
+    const uint32_t width = sums->field[SUMS_WIDTH];
+    const uint32_t rows = row_end - row_first;
+
+    sums->row_counts =
+            cli_alloc(sums->field[SUMS_HEIGHT], sizeof *sums->row_counts);
+    sums->row_first = row_first;
+    sums->row_end = row_end;
+    sums->pixels = calloc(rows != 0 ? rows : 1, width * sizeof(ql_sum_t));
+    if (sums->pixels == NULL) {
+        cli_fail(CLI_IO,
+                "out of memory for the sums of rows %u:%u, %" PRIu64 " bytes; "
+                "fewer rows take less",
+                (unsigned)row_first, (unsigned)row_end,
+                (uint64_t)rows * width * sizeof(ql_sum_t));
+    }
 }
 
 void sums_own_counts(sums_t *sums)
 {
-    sums->counts = cli_alloc(sums->field[SUMS_HEIGHT],
+    sums->counts = cli_alloc(sums->row_end - sums->row_first,
             sums->field[SUMS_WIDTH] * sizeof *sums->counts);
 }
 
 void sums_free(sums_t *sums)
 {
-    free(sums->ranges);
+    ranges_free(&sums->ranges);
+    free(sums->row_counts);
     free(sums->pixels);
     free(sums->counts);
     memset(sums, 0, sizeof *sums);
 }
 
-/* ---- Ranges ------------------------------------------------------------ */
-
-static void append_range(sums_t *sums, const sums_range_t *range)
+bool sums_settle(sums_t *sums, uint32_t clash[2])
 {
-    const uint32_t n = sums->range_count;
+    const uint32_t height = sums->field[SUMS_HEIGHT];
 
-    if ((n & (n - 1)) == 0) { /* full at every power of two, and at 0 */
-        sums->ranges = realloc(
-                sums->ranges, (n == 0 ? 1 : 2 * (size_t)n) * sizeof *range);
-        if (sums->ranges == NULL) {
-            cli_fail(CLI_IO, "out of memory for %u ranges", (unsigned)n);
-        }
+    if (!ranges_join(&sums->ranges, clash)) {
+        return false;
     }
-    sums->ranges[sums->range_count++] = *range;
+    ranges_count(&sums->ranges, sums->row_counts, height);
+    return true;
 }
 
-bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash)
+void sums_settle_one(sums_t *sums, const sums_range_t *range)
 {
-    for (uint32_t i = 0; i < sums->range_count; i++) {
-        const sums_range_t *r = sums->ranges + i;
-        if (range->row_first < r->row_end && r->row_first < range->row_end &&
-                range->sample_first < r->sample_end &&
-                r->sample_first < range->sample_end) {
-            *clash = *r;
-            return false;
-        }
-    }
-    append_range(sums, range);
-    return true;
+    uint32_t none[2];
+
+    ranges_add(&sums->ranges, range);
+    (void)sums_settle(sums, none);
 }
 
 uint32_t sums_row_count(const sums_t *sums, uint32_t y)
 {
-    uint32_t count = 0; /* ranges do not overlap: at most 2^24 */
-
-    for (uint32_t i = 0; i < sums->range_count; i++) {
-        const sums_range_t *r = sums->ranges + i;
-        if (r->row_first <= y && y < r->row_end) {
-            count += r->sample_end - r->sample_first;
-        }
-    }
-    return count;
+    return sums->row_counts[y];
 }
 
-static int compare_samples(const void *a, const void *b)
+/* Of a row in memory. */
+static size_t place_of(const sums_t *sums, uint32_t y)
 {
-    const sums_range_t *p = a, *q = b;
-
-    return (p->sample_first > q->sample_first) -
-           (p->sample_first < q->sample_first);
+    return (size_t)sums->field[SUMS_WIDTH] * (y - sums->row_first);
 }
 
-static int compare_numbers(const void *a, const void *b)
+uint32_t sums_count(const sums_t *sums, uint32_t x, uint32_t y)
 {
-    const uint32_t *p = a, *q = b;
-
-    return (*p > *q) - (*p < *q);
+    return sums->counts != NULL && sums->row_counts[y] != 0
+                   ? sums->counts[place_of(sums, y) + x]
+                   : sums->row_counts[y];
 }
 
-/* Append to joined the sample ranges of rows [first, end), which every range
- * holds entirely or not at all. sums->ranges are sorted by samples. Returns
- * how many ranges this made. */
-static uint32_t join_samples(
-        const sums_t *sums, sums_t *joined, uint32_t first, uint32_t end)
+ql_sum_t *sums_pixels(const sums_t *sums, uint32_t y)
 {
-    uint32_t made = 0;
-
-    for (uint32_t i = 0; i < sums->range_count; i++) {
-        sums_range_t r = sums->ranges[i];
-        if (r.row_first > first || r.row_end <= first) {
-            continue;
-        }
-        r.row_first = first;
-        r.row_end = end;
-        if (made > 0 && joined->ranges[joined->range_count - 1].sample_end ==
-                                r.sample_first) {
-            joined->ranges[joined->range_count - 1].sample_end = r.sample_end;
-        } else {
-            append_range(joined, &r);
-            made++;
-        }
-    }
-    return made;
-}
-
-/* If the last made ranges repeat the n before them, which are of the rows right
- * above, grow those instead. Returns how many ranges now describe the lowest
- * rows. */
-static uint32_t join_rows(sums_t *joined, uint32_t n, uint32_t made)
-{
-    sums_range_t *now = joined->ranges + joined->range_count - made;
-    sums_range_t *old = now - n;
-
-    if (n != made) {
-        return made;
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        if (old[i].sample_first != now[i].sample_first ||
-                old[i].sample_end != now[i].sample_end) {
-            return made;
-        }
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        old[i].row_end = now[i].row_end;
-    }
-    joined->range_count -= made;
-    return n;
-}
-
-/* Describe the same samples in the one canonical way: cut the rows wherever a
- * range begins or ends, join samples within each slice, then join slices. */
-static void join_ranges(sums_t *sums)
-{
-    const uint32_t n = 2 * sums->range_count;
-    uint32_t *cuts = cli_alloc(n, sizeof *cuts);
-    sums_t joined = *sums;
-    uint32_t made = 0;
-
-    joined.ranges = NULL;
-    joined.range_count = 0;
-    for (uint32_t i = 0; i < n; i++) {
-        cuts[i] = i % 2 == 0 ? sums->ranges[i / 2].row_first
-                             : sums->ranges[i / 2].row_end;
-    }
-    qsort(cuts, n, sizeof *cuts, compare_numbers);
-    if (n > 0) {
-        qsort(sums->ranges, sums->range_count, sizeof *sums->ranges,
-                compare_samples);
-    }
-    for (uint32_t i = 0; i + 1 < n; i++) {
-        if (cuts[i] < cuts[i + 1]) {
-            made = join_rows(&joined, made,
-                    join_samples(sums, &joined, cuts[i], cuts[i + 1]));
-        }
-    }
-    free(cuts);
-    free(sums->ranges);
-    *sums = joined;
+    return sums->pixels + place_of(sums, y);
 }
 
 /* ---- Read -------------------------------------------------------------- */
@@ -232,11 +150,12 @@ static void fetch(
         memcpy(to, file->data + at, size);
         return;
     }
+    at += file->base;
     while (size > 0) {
         const ssize_t n = pread(file->fd, to, size, (off_t)at);
 
         if (n == 0 || (n < 0 && errno != EINTR)) {
-            cli_fail(CLI_IO, "cannot read a sum file: %s",
+            cli_fail(CLI_IO, "cannot read %s: %s", file->path,
                     n == 0 ? "it became shorter" : strerror(errno));
         }
         to += n > 0 ? n : 0;
@@ -285,20 +204,24 @@ static const char *take_fields(sums_t *sums, const uint8_t *data, size_t *at)
 static const char *take_ranges(
         sums_t *sums, const uint8_t *data, uint32_t count, size_t *at)
 {
+    uint32_t clash[2];
+
     for (uint32_t i = 0; i < count; i++, *at += RANGE_BYTES) {
         const uint8_t *b = data + *at;
         const sums_range_t r = {bytes_get_le32(b), bytes_get_le32(b + 4),
                 bytes_get_le32(b + 8), bytes_get_le32(b + 12)};
-        sums_range_t clash;
+
         if (r.row_first >= r.row_end || r.row_end > sums->field[SUMS_HEIGHT]) {
             return "expected a range of rows of the picture";
         }
         if (r.sample_first >= r.sample_end || r.sample_end > QL_SPP_MAX) {
             return "expected a range of samples from 0 to 2^24";
         }
-        if (!sums_claim(sums, &r, &clash)) {
-            return "a range that overlaps another";
-        }
+        ranges_add(&sums->ranges, &r);
+    }
+    if (!ranges_join(&sums->ranges, clash)) {
+        *at = HEAD_BYTES + (size_t)clash[1] * RANGE_BYTES;
+        return "a range that overlaps another";
     }
     return NULL;
 }
@@ -308,20 +231,43 @@ static uint64_t row_bytes(const sums_file_t *file)
     return (uint64_t)PIXEL_BYTES * file->head.field[SUMS_WIDTH];
 }
 
-/* The rows that some range holds are the rest of the file. */
-static const char *check_rows(sums_file_t *file, uint64_t at)
+/* Ranges are sorted by rows: find those that hold any. */
+static void find_rows(sums_file_t *file)
 {
-    uint64_t rows = 0;
+    const ranges_t *ranges = &file->head.ranges;
+    uint32_t above = 0;
 
-    for (uint32_t y = 0; y < file->head.field[SUMS_HEIGHT]; y++) {
-        rows += sums_row_count(&file->head, y) != 0;
+    file->rows = cli_alloc(ranges->count, sizeof *file->rows);
+    for (uint32_t i = 0; i < ranges->count; i++) {
+        const sums_range_t *r = ranges->items + i;
+        sums_rows_t *last = file->rows + file->row_count;
+
+        if (file->row_count > 0 && r->row_first <= last[-1].end) {
+            last[-1].end =
+                    r->row_end > last[-1].end ? r->row_end : last[-1].end;
+        } else {
+            above += file->row_count > 0 ? last[-1].end - last[-1].first : 0;
+            *last = (sums_rows_t){r->row_first, r->row_end, above};
+            file->row_count++;
+        }
     }
-    file->row = 0;
-    file->row_at = at;
-    rows *= row_bytes(file); /* < 2^33 */
-    return file->size - at < rows   ? "the sums end too early"
-           : file->size - at > rows ? "unexpected bytes after the sums"
-                                    : NULL;
+}
+
+/* The rows that some range holds are the rest of the file. */
+static const char *check_rows(sums_file_t *file)
+{
+    const sums_rows_t *last;
+    uint64_t bytes = 0; /* < 2^33 */
+
+    find_rows(file);
+    if (file->row_count > 0) {
+        last = file->rows + file->row_count - 1;
+        bytes = row_bytes(file) * (last->before + last->end - last->first);
+    }
+    return file->size - file->rows_at < bytes ? "the sums end too early"
+           : file->size - file->rows_at > bytes
+                   ? "unexpected bytes after the sums"
+                   : NULL;
 }
 
 /* Fields and ranges, whose bytes are in memory. */
@@ -349,13 +295,15 @@ static const char *take_head(sums_file_t *file, size_t *at)
     return error;
 }
 
-/* Everything but the rows themselves; data, or fd, and size are set. */
-static const char *open_file(sums_file_t *file, uint64_t *where)
+const char *sums_open(sums_file_t *file, uint64_t *where)
 {
     char magic[4];
     const char *error;
     size_t at = 0;
 
+    memset(&file->head, 0, sizeof file->head);
+    file->row_count = 0;
+    file->rows = NULL;
     *where = 0;
     if (file->size >= sizeof magic) {
         fetch(file, 0, magic, sizeof magic);
@@ -374,42 +322,60 @@ static const char *open_file(sums_file_t *file, uint64_t *where)
     }
     error = take_head(file, &at);
     if (error == NULL) {
-        error = check_rows(file, at);
+        file->rows_at = at;
+        error = check_rows(file);
     }
     *where = at;
     if (error != NULL) {
-        sums_free(&file->head);
+        sums_close(file);
     }
     return error;
 }
 
-const char *sums_open(sums_file_t *file, int fd, uint64_t size, uint64_t *where)
+void sums_close(sums_file_t *file)
 {
-    memset(file, 0, sizeof *file);
-    file->fd = fd;
-    file->size = size;
-    return open_file(file, where);
+    sums_free(&file->head);
+    free(file->rows);
+    file->rows = NULL;
+    file->row_count = 0;
 }
 
-bool sums_row(sums_file_t *file, uint32_t y, ql_sum_t *row)
+/* The first rows that do not end above y, or those behind the last. */
+static uint32_t find_below(const sums_file_t *file, uint32_t y)
+{
+    uint32_t first = 0, end = file->row_count;
+
+    while (first < end) {
+        const uint32_t middle = first + (end - first) / 2;
+
+        if (file->rows[middle].end > y) {
+            end = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return first;
+}
+
+bool sums_holds(const sums_file_t *file, uint32_t first, uint32_t end)
+{
+    const uint32_t i = find_below(file, first);
+
+    return i < file->row_count && file->rows[i].first < end;
+}
+
+bool sums_row(const sums_file_t *file, uint32_t y, ql_sum_t *row)
 {
     const uint32_t width = file->head.field[SUMS_WIDTH];
+    const sums_rows_t *rows = file->rows + find_below(file, y);
     const uint8_t *bytes = (const uint8_t *)row;
 
-    if (sums_row_count(&file->head, y) == 0) {
+    if (!sums_holds(file, y, y + 1)) {
         return false;
     }
-    while (file->row < y) {
-        if (sums_row_count(&file->head, file->row++) != 0) {
-            file->row_at += row_bytes(file);
-        }
-    }
-    while (file->row > y) {
-        if (sums_row_count(&file->head, --file->row) != 0) {
-            file->row_at -= row_bytes(file);
-        }
-    }
-    fetch(file, file->row_at, row, (size_t)row_bytes(file));
+    fetch(file,
+            file->rows_at + row_bytes(file) * (rows->before + y - rows->first),
+            row, (size_t)row_bytes(file));
     for (size_t i = 0; i < 3 * (size_t)width; i++) { /* in place */
         row[i / 3].rgb[i % 3] = bytes_get_le64(bytes + 8 * i);
     }
@@ -419,25 +385,24 @@ bool sums_row(sums_file_t *file, uint32_t y, ql_sum_t *row)
 const char *sums_decode(
         sums_t *sums, const uint8_t *data, size_t size, size_t *where)
 {
-    sums_file_t file;
-    const char *error;
+    sums_file_t file = {.path = "a sum file", .data = data, .size = size};
     uint64_t at;
-    size_t width;
+    const char *error = sums_open(&file, &at);
 
-    memset(&file, 0, sizeof file);
     memset(sums, 0, sizeof *sums);
-    file.data = data;
-    file.size = size;
-    error = open_file(&file, &at);
     *where = (size_t)at;
     if (error == NULL) {
-        *sums = file.head;
-        width = sums->field[SUMS_WIDTH];
-        sums->pixels =
-                cli_alloc(sums->field[SUMS_HEIGHT], width * sizeof(ql_sum_t));
-        for (uint32_t y = 0; y < sums->field[SUMS_HEIGHT]; y++) {
-            (void)sums_row(&file, y, sums->pixels + width * y);
+        const uint32_t height = file.head.field[SUMS_HEIGHT];
+
+        memcpy(sums->field, file.head.field, sizeof sums->field);
+        sums_new(sums, 0, height);
+        sums->ranges = file.head.ranges;
+        memset(&file.head.ranges, 0, sizeof file.head.ranges);
+        ranges_count(&sums->ranges, sums->row_counts, height);
+        for (uint32_t y = 0; y < height; y++) {
+            (void)sums_row(&file, y, sums_pixels(sums, y));
         }
+        sums_close(&file);
     }
     return error;
 }
@@ -458,21 +423,22 @@ static void put_le32(sums_writer_t *to, uint32_t value)
     put_bytes(to, bytes, sizeof bytes);
 }
 
-void sums_write_head(sums_writer_t *to, sums_t *sums, cli_out_t *out)
+void sums_write_head(sums_writer_t *to, const sums_t *sums, cli_out_t *out)
 {
     to->file = out->file;
     to->crc = 0;
-    join_ranges(sums);
     put_bytes(to, (const uint8_t *)"QLS3", 4);
     for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
         put_le32(to, sums->field[i]);
     }
-    put_le32(to, sums->range_count);
-    for (uint32_t i = 0; i < sums->range_count; i++) {
-        put_le32(to, sums->ranges[i].row_first);
-        put_le32(to, sums->ranges[i].row_end);
-        put_le32(to, sums->ranges[i].sample_first);
-        put_le32(to, sums->ranges[i].sample_end);
+    put_le32(to, sums->ranges.count);
+    for (uint32_t i = 0; i < sums->ranges.count; i++) {
+        const sums_range_t *r = sums->ranges.items + i;
+
+        put_le32(to, r->row_first);
+        put_le32(to, r->row_end);
+        put_le32(to, r->sample_first);
+        put_le32(to, r->sample_end);
     }
 }
 
@@ -490,15 +456,14 @@ void sums_write_end(sums_writer_t *to)
     put_le32(to, to->crc);
 }
 
-void sums_write(sums_t *sums, cli_out_t *out)
+void sums_write(const sums_t *sums, cli_out_t *out)
 {
-    const uint32_t width = sums->field[SUMS_WIDTH];
     sums_writer_t to;
 
     sums_write_head(&to, sums, out);
-    for (uint32_t y = 0; y < sums->field[SUMS_HEIGHT]; y++) {
+    for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
         if (sums_row_count(sums, y) != 0) {
-            sums_write_row(&to, sums->pixels + (size_t)width * y, width);
+            sums_write_row(&to, sums_pixels(sums, y), sums->field[SUMS_WIDTH]);
         }
     }
     sums_write_end(&to);

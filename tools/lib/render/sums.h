@@ -12,14 +12,16 @@
  *                   pixel u64 sums of R, G and B, u40.24 radiance units
  *     .   4         CRC-32 of everything before
  *
- * Ends are one past the last. Ranges do not overlap; they are sorted and joined
- * so that equal parts have equal bytes. The samples of a pixel are those of the
- * ranges that hold its row: their count is not stored a second time. */
+ * Ends are one past the last. Ranges do not overlap; they are joined as
+ * ranges_join() says, so that equal parts have equal bytes. The samples of a
+ * pixel are those of the ranges that hold its row: their count is not stored a
+ * second time. */
 
 #ifndef SUMS_H
 #define SUMS_H
 
 #include "lib/program/cli.h"
+#include "lib/ranges/ranges.h"
 #include "film/ql_film.h"
 
 /* What parts must have in common: name, text, smallest, largest. Signed fields
@@ -50,70 +52,86 @@ enum {
             SUMS_FIELD_COUNT
 };
 
-/* Rows times sample indices; the ends are one past the last. */
-typedef struct {
-    uint32_t row_first;
-    uint32_t row_end;
-    uint32_t sample_first;
-    uint32_t sample_end;
-} sums_range_t;
-
 typedef struct {
     uint32_t field[SUMS_FIELD_COUNT];
-    uint32_t range_count;
-    sums_range_t *ranges;
-    ql_sum_t *pixels; /* width * height, rows from the top */
+    ranges_t ranges;      /* what the pixels hold */
+    uint32_t *row_counts; /* samples of a pixel, for each row of the picture */
+    uint32_t row_first;   /* of the rows whose pixels are in memory */
+    uint32_t row_end;
+    ql_sum_t *pixels; /* theirs, from the top */
     uint32_t *counts; /* samples of each pixel if they differ, which no file
                          holds; NULL: as the ranges say */
 } sums_t;
 
-/* Take memory for black pixels; the size fields are set already. */
-void sums_new(sums_t *sums);
+/* Take memory for black pixels of some rows; the size fields are set already,
+ * everything else is 0. Ends in cli_fail(CLI_IO) if there is not enough. */
+void sums_new(sums_t *sums, uint32_t row_first, uint32_t row_end);
 void sums_free(sums_t *sums);
 
-/* Say that the pixels now hold a range too. False if one of its samples is
- * there already; clash then names it. */
-bool sums_claim(sums_t *sums, const sums_range_t *range, sums_range_t *clash);
+/* Once the list of ranges is complete: join it and count the samples of each
+ * row. Returns false, and what ranges_join() says, if two overlap. */
+bool sums_settle(sums_t *sums, uint32_t clash[2]);
 
-/* Samples in each pixel of a row. */
+/* The same where the range is the only one. */
+void sums_settle_one(sums_t *sums, const sums_range_t *range);
+
+/* Samples in each pixel of a row; of one pixel, which may have its own. */
 uint32_t sums_row_count(const sums_t *sums, uint32_t y);
+uint32_t sums_count(const sums_t *sums, uint32_t x, uint32_t y);
 
-/* Give each pixel a count of its own, 0 to begin. */
+/* The pixels of a row in memory. */
+ql_sum_t *sums_pixels(const sums_t *sums, uint32_t y);
+
+/* Give each pixel in memory a count of its own, 0 to begin. */
 void sums_own_counts(sums_t *sums);
 
 /* Decode a file's bytes, as image_decode() does. */
 const char *sums_decode(
         sums_t *sums, const uint8_t *data, size_t size, size_t *where);
 
-/* A sum file that is open. Its rows are read one by one, so that a picture may
- * be larger than memory. */
+/* Rows of a file, one below the other, and how many it has above them. */
 typedef struct {
-    sums_t head;         /* fields and ranges; no pixels */
+    uint32_t first;
+    uint32_t end;
+    uint32_t before;
+} sums_rows_t;
+
+/* A sum file that is read row by row, so that a picture may be larger than
+ * memory. Between two calls it may be closed and opened again. */
+typedef struct {
+    const char *path;    /* in messages */
     const uint8_t *data; /* all bytes, or NULL: */
     int fd;              /* which can seek */
+    uint64_t base;       /* bytes before it in there */
     uint64_t size;
-    uint32_t row; /* whose bytes are at row_at */
-    uint64_t row_at;
+
+    sums_t head; /* fields and ranges; no pixels, no counts */
+    uint64_t rows_at;
+    uint32_t row_count;
+    sums_rows_t *rows;
 } sums_file_t;
 
-/* Open a file: its check value, fields and ranges are found right.
+/* Check a file: its check value, fields and ranges are found right.
  *
- *   file    -      out: its head is to be freed if this succeeds
- *   fd      -      can seek, and stays open as long as rows are read
- *   size    bytes  of the file
+ *   file    -      in: path, and where its bytes are; the rest out, to be freed
+ *                  by sums_close() if this succeeds
  *   where   bytes  out: offset of what is wrong
  *   return  NULL, or what was expected there; cli_fail(CLI_IO) if it cannot be
  *           read
  */
-const char *sums_open(
-        sums_file_t *file, int fd, uint64_t size, uint64_t *where);
+const char *sums_open(sums_file_t *file, uint64_t *where);
 
-/* Read a row of width pixels; false and nothing if no range holds it. The next
- * one above or below is found at once. */
-bool sums_row(sums_file_t *file, uint32_t y, ql_sum_t *row);
+/* Does it hold any row of [first, end)? */
+bool sums_holds(const sums_file_t *file, uint32_t first, uint32_t end);
 
-/* Write into an open file, ranges sorted and joined; counts is NULL. */
-void sums_write(sums_t *sums, cli_out_t *out);
+/* Read a row of width pixels; false and nothing if no range holds it. */
+bool sums_row(const sums_file_t *file, uint32_t y, ql_sum_t *row);
+
+/* Free what sums_open() took; fd stays open. */
+void sums_close(sums_file_t *file);
+
+/* Write into an open file what is settled; counts is NULL. */
+void sums_write(const sums_t *sums, cli_out_t *out);
 
 /* The same piece by piece: the head, each row that a range holds, the end. */
 typedef struct {
@@ -121,7 +139,7 @@ typedef struct {
     uint32_t crc;
 } sums_writer_t;
 
-void sums_write_head(sums_writer_t *to, sums_t *sums, cli_out_t *out);
+void sums_write_head(sums_writer_t *to, const sums_t *sums, cli_out_t *out);
 void sums_write_row(sums_writer_t *to, const ql_sum_t *row, uint32_t width);
 void sums_write_end(sums_writer_t *to);
 
