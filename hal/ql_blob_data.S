@@ -10,4 +10,6 @@ ql_blob_begin:
     .balign 4
 ql_blob_end:
 
+#ifdef __linux__
     .section .note.GNU-stack, "", %progbits
+#endif
