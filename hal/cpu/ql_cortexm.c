@@ -14,10 +14,39 @@ extern uint32_t ql_ld_bss_end[];
 int main(void);
 void ql_cpu_reset(void);
 void ql_cpu_fault(void);
-void ql_cpu_fault_report(const uint32_t *frame, uint32_t vector);
+void ql_cpu_fault_report(const uint32_t *frame, uint32_t vector, uint32_t pc);
+
+/* Below the stack there is no memory, but not every bus says so: QEMU's boards
+ * take a write there, and with the next ones what lies further down. So the
+ * memory protection unit guards it; a chip that was made without one ignores
+ * this. */
+#if defined(__ARM_ARCH_7M__) || defined(__ARM_ARCH_7EM__)
+#define MPU_CTRL        0xe000ed94u
+#define MPU_RBAR        0xe000ed9cu
+#define MPU_RASR        0xe000eda0u
+#define MPU_REGION_0    (1u << 4) /* with its address */
+#define MPU_NO_ACCESS   (0u << 24)
+#define MPU_BYTES(log2) (((log2)-1) << 1 | 1u)
+#define MPU_GUARD_LOG2  20u
+#define MPU_ON          5u /* all other memory is as without it */
+
+static void guard_stack(void)
+{
+    const uint32_t bottom = (uint32_t)(uintptr_t)ql_ld_stack_bottom;
+
+    QL_REG(MPU_RBAR) = (bottom - (1u << MPU_GUARD_LOG2)) | MPU_REGION_0;
+    QL_REG(MPU_RASR) = MPU_NO_ACCESS | MPU_BYTES(MPU_GUARD_LOG2);
+    QL_REG(MPU_CTRL) = MPU_ON;
+}
+#else
+static void guard_stack(void)
+{
+}
+#endif
 
 void ql_cpu_reset(void)
 {
+    guard_stack();
     /* linker/sections.ld asserts that there is no initialised data to copy */
     for (uint32_t *to = ql_ld_bss_begin; to < ql_ld_bss_end; to++) {
         *to = 0;
@@ -26,28 +55,38 @@ void ql_cpu_reset(void)
     ql_cpu_exit(QL_EXIT_PANIC);
 }
 
-/* Every vector without a purpose ends here. The stack pointer may be what went
- * wrong, so the report begins with a fresh stack; frame is the old one. */
+/* No address of an instruction. */
+#define NO_PC 1
+
+/* Every vector without a purpose ends here. The CPU has stacked r0-r3, r12, lr,
+ * pc and psr, unless there was no stack left to put them on. The stack pointer
+ * may be what went wrong, so the report begins with a fresh stack, which may
+ * overwrite them: the pc is read before. */
 __attribute__((naked)) void ql_cpu_fault(void)
 {
     __asm__ volatile("mov r0, sp\n\t"
                      "mrs r1, ipsr\n\t"
-                     "ldr r2, =ql_ld_stack_top\n\t"
-                     "mov sp, r2\n\t"
+                     "movs r2, #1\n\t" /* NO_PC */
+                     "ldr r3, =ql_ld_stack_bottom\n\t"
+                     "cmp r0, r3\n\t"
+                     "ldr r3, =ql_ld_stack_top\n\t"
+                     "blo 1f\n\t"
+                     "cmp r0, r3\n\t"
+                     "bhs 1f\n\t"
+                     "ldr r2, [r0, #24]\n"
+                     "1:\tmov sp, r3\n\t"
                      "bl ql_cpu_fault_report\n\t"
                      ".ltorg");
 }
 
-/* The CPU has stacked r0-r3, r12, lr, pc and psr at frame, unless there was no
- * stack left to put them on. */
 __attribute__((used)) void ql_cpu_fault_report(
-        const uint32_t *frame, uint32_t vector)
+        const uint32_t *frame, uint32_t vector, uint32_t pc)
 {
     ql_report_text("\nqlux: fault");
     ql_report_hex(vector);
-    if (frame >= ql_ld_stack_bottom && frame + 8 <= ql_ld_stack_top) {
+    if (pc != NO_PC) {
         ql_report_text(" at pc");
-        ql_report_hex(frame[6]);
+        ql_report_hex(pc);
     } else {
         ql_report_text(" stack overflow, sp");
         ql_report_hex((uint32_t)(uintptr_t)frame);

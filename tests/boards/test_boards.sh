@@ -74,7 +74,8 @@ panel() {
         tests/boards/test_panel.sh "$build/$1/$SCENE-panel.elf" "$grey"
 }
 
-# stops BOARD STATUS FAULT: how fault_main.c ends, and that it says so.
+# stops BOARD STATUS FAULT: how fault_main.c ends, and that it says so; of an
+# instruction, where that is.
 stops() {
     fault=$build/$1/$SCENE-emulated-fault-$3
     choose "$1" EMULATED=1 VARIANT="-fault-$3" "$fault.elf" \
@@ -86,14 +87,25 @@ stops() {
     status=$?
     note="status $status"
     [ "$status" -eq "$2" ] && [ ! -e "$build/$1/fault.ppm" ] || return
-    case $status in
-    100) grep -q "^board: panic" "$log" ;;
-    101) grep -q "^board: fault" "$log" ;;
+    case $3 in
+    0) grep -q "^board: panic" "$log" ;;
+    1) grep -q "^board: fault .* stack overflow" "$log" ;;
+    2)
+        here=$("$(of_board "$1" CROSS)nm" "$fault.elf" |
+            sed -n 's/ . fault_here$//p')
+        note="$note at 0x$here"
+        grep -q "^board: fault .* at pc 0x$here" "$log"
+        ;;
     esac
 }
 
+# of_board BOARD NAME: what its board.mk says.
+of_board() {
+    sed -n "s/^BOARD_$2 := //p" "hal/boards/$1/board.mk"
+}
+
 emulator() {
-    sed -n "s/^BOARD_QEMU := //p" "hal/boards/$1/board.mk"
+    of_board "$1" QEMU
 }
 
 # Ctrl-C on the serial port, a moment after the start of a long picture.
@@ -169,15 +181,9 @@ for board; do
     check "$board" stack_stays_within_its_proved_bound stack "$board"
     check "$board" ctrl_c_stops_the_picture ctrl_c "$board"
     check "$board" panic_is_reported stops "$board" 100 0
-    check "$board" undefined_instruction_is_reported stops "$board" 101 2
+    check "$board" undefined_instruction_is_reported_where_it_is stops "$board" 101 2
+    check "$board" stack_overflow_is_reported stops "$board" 101 1
     check "$board" status_is_what_the_emulator_exits_with stops "$board" 12 3
-done
-# QEMU lets the other two write outside their memory.
-for board; do
-    case $board in
-    microbit | sifive_e)
-        check "$board" stack_overflow_is_reported stops "$board" 101 1 ;;
-    esac
 done
 for board; do
     [ "$board" = lm3s6965evb ] || continue
