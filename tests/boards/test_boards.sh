@@ -181,7 +181,8 @@ for board; do
     check "$board" stack_stays_within_its_proved_bound stack "$board"
     check "$board" ctrl_c_stops_the_picture ctrl_c "$board"
     check "$board" panic_is_reported stops "$board" 100 0
-    check "$board" undefined_instruction_is_reported_where_it_is stops "$board" 101 2
+    check "$board" undefined_instruction_is_reported_where_it_is \
+        stops "$board" 101 2
     check "$board" stack_overflow_is_reported stops "$board" 101 1
     check "$board" status_is_what_the_emulator_exits_with stops "$board" 12 3
 done
