@@ -63,9 +63,11 @@ draws() {
 draws "$CC" main.o show.c
 say it_draws_the_simulators_bits $? "$(tail -n 1 said.txt)"
 
+# The gates of the page are words for the shell.
+eval "$(grep '^gates=' build.sh)"
+
 # ---- C++
 
-gates='-DQL_CFG_PRECISION=0 -DQL_CFG_FEATURES_HEADER="room.h"'
 for compiler in g++ clang++; do
     # shellcheck disable=SC2086
     draws $compiler -std=c++11 $strict $gates -I. -Ifirmware main.cpp show.cpp
