@@ -116,9 +116,13 @@ bench-pc: $O/bench-pc $O/bench-pc-draft $O/$(scene).qlb $O/mesh.qlb
 strategies: ## Noise and cost of each direct strategy, as a table and a picture
 	@MAKE='$(MAKE)' tools/sheet/strategies.sh $(STRATEGY_OPTIONS)
 
+shrink: ## Variance of each strategy as a light shrinks: build/shrink.svg
+shrink: $O/qlux-scene $O/qlux-sim
+	@tools/sheet/shrink.sh
+
 budgets-update: ## Write what is measured into tests/budgets
 	tests/bench/test_bench.sh --update $(BOARDS)
 
 .PHONY: bench bench-boards bench-board bench-pc bench-warps \
     bench-warps-boards bench-warps-pc bench-strategies budgets-update \
-    strategies
+    shrink strategies

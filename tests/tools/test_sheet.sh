@@ -140,4 +140,40 @@ rm full.png
 [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
 say nothing_is_left_behind $?
 
+# ---- shrink.sh: variance as a light shrinks ---------------------------------
+
+shrink() { # OPTION...
+    (cd "$root" && BUILD=$work/b tools/sheet/shrink.sh "$@")
+}
+mkdir b && ln -s "$build/qlux-scene" "$build/qlux-sim" b
+awk -f "$root/tools/sheet/shrink.awk" "$root/tools/sheet/shrink.csv" >again.svg &&
+    cmp again.svg "$root/tools/sheet/shrink.svg"
+say the_drawing_of_a_shrinking_light_is_that_of_its_table $?
+expect a_shrinking_light_needs_a_drawing_of_svg 1 'a name that ends in .svg' \
+    shrink -o a.png
+expect a_light_of_one_size_is_measured 0 'b/shrink.svg' \
+    shrink --sides 1 --spp 16
+# The closed forms of known_strategies.c; the spread of 16,384 pixels, whose
+# fourth moments are below 5 squared variances: 4.9 standard errors are 7.7 %.
+awk -F, '
+    function near(x, want, part) {
+        if (x / want - 1 > part || want / x - 1 > part) bad = bad " " $3 " " x
+    }
+    BEGIN {
+        square = 0.2394564704607735 ^ 2
+        known["hemisphere"] = 0.3908040397 / square
+        known["cosine"] = 0.1821170692 / square
+        known["area"] = 0.0017405096 / square
+        known["solid-angle"] = 0.0001074045 / square
+    }
+    FNR == 1 { next }
+    {
+        rows++
+        if ($3 in known) near($5 * $4, known[$3], 1e-4)
+        near($6, $5, 0.08)
+    }
+    END { print bad; exit bad != "" || rows != 6 }
+' b/shrink.csv >bad.txt
+say its_variances_are_those_of_closed_forms $? "$(cat bad.txt)"
+
 exit $((failures != 0))
