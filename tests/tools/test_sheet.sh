@@ -146,8 +146,8 @@ shrink() { # OPTION...
     (cd "$root" && BUILD=$work/b tools/sheet/shrink.sh "$@")
 }
 mkdir b && ln -s "$build/qlux-scene" "$build/qlux-sim" b
-awk -f "$root/tools/sheet/shrink.awk" "$root/tools/sheet/shrink.csv" >again.svg &&
-    cmp again.svg "$root/tools/sheet/shrink.svg"
+kept=$root/tools/sheet/shrink
+awk -f "$kept.awk" "$kept.csv" >again.svg && cmp again.svg "$kept.svg"
 say the_drawing_of_a_shrinking_light_is_that_of_its_table $?
 expect a_shrinking_light_needs_a_drawing_of_svg 1 'a name that ends in .svg' \
     shrink -o a.png
