@@ -107,9 +107,13 @@ bench-board: $(board_name).elf
 	    -kernel $< < /dev/null 2> $O/$(BOARD)/bench.log
 endif
 
+# REPETITIONS: of how many a time is the median.
+REPETITIONS ?= 31
+
 bench-pc: $O/bench-pc $O/bench-pc-draft $O/$(scene).qlb $O/mesh.qlb
-	@$O/bench-pc-draft $O/$(scene).qlb $O/mesh.qlb
-	@$O/bench-pc $O/$(scene).qlb $O/mesh.qlb
+	@$O/bench-pc-draft --repetitions $(REPETITIONS) $O/$(scene).qlb \
+	    $O/mesh.qlb
+	@$O/bench-pc --repetitions $(REPETITIONS) $O/$(scene).qlb $O/mesh.qlb
 	@tests/bench/rays/count_pc.sh $O/bench-pc-draft draft \
 	    $O/$(scene).qlb $O/mesh.qlb
 

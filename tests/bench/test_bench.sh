@@ -134,7 +134,8 @@ board()
 pc()
 {
     suite=bench/pc
-    "$make" -s --no-print-directory bench-pc > "$dir/pc" 2>&1
+    "$make" -s --no-print-directory bench-pc REPETITIONS=1 \
+        > "$dir/pc" 2>&1
     status=$?
     say both_tracers_hit_the_same_triangles $status "$(
         [ $status -eq 0 ] || tail -n 1 "$dir/pc")"

@@ -22,8 +22,8 @@
 
 #define PICTURE_SIZE 64 /* px, square */
 #define PICTURE_SPP  4
-#define COMPARE_SPP  64 /* to compare the pictures' means */
-#define REPETITIONS  31
+#define COMPARE_SPP  64    /* to compare the pictures' means */
+#define REPETITIONS  31    /* unless the command line has fewer */
 #define AGREE_MIN    0.999 /* same triangle by both tracers */
 #define MEAN_MAX     0.05  /* relative difference of the pictures' means */
 
@@ -38,6 +38,7 @@ typedef struct {
     bench_batch_t rays;
     fp_ray_t *fp_closest, *fp_shadow;
     uint32_t spp;
+    size_t repetitions; /* 1 .. REPETITIONS */
 } case_t;
 
 /* What one tracer does to a whole case; returns a number that depends on it. */
@@ -256,14 +257,14 @@ static figure_t measure(
 
     (void)time_ns(qlux_work, c); /* fill the caches */
     (void)time_ns(float_work, c);
-    for (size_t i = 0; i < REPETITIONS; i++) {
+    for (size_t i = 0; i < c->repetitions; i++) {
         q[i] = time_ns(qlux_work, c);
         f[i] = time_ns(float_work, c);
         r[i] = q[i] / f[i];
     }
-    figure.ratio = median(r, REPETITIONS);
-    figure.qlux_ns = median(q, REPETITIONS) * per_call;
-    figure.float_ns = median(f, REPETITIONS) * per_call;
+    figure.ratio = median(r, c->repetitions);
+    figure.qlux_ns = median(q, c->repetitions) * per_call;
+    figure.float_ns = median(f, c->repetitions) * per_call;
     return figure;
 }
 
@@ -350,7 +351,8 @@ static bool pictures_agree(case_t *c, const char *prefix)
 
 /* ---- the program ---- */
 
-static bool run(const char *name, const char *prefix, figure_t *closest)
+static bool run(const char *name, const char *prefix, size_t repetitions,
+        figure_t *closest)
 {
     static const case_t zero;
     case_t c = zero;
@@ -358,6 +360,7 @@ static bool run(const char *name, const char *prefix, figure_t *closest)
     bool agree;
 
     case_open(&c, name);
+    c.repetitions = repetitions;
     agree = closest_agrees(&c, prefix);
     agree = shadow_agrees(&c, prefix) && agree;
     agree = rays_agree(&c, prefix) && agree;
@@ -393,12 +396,13 @@ static void run_once(const char *name)
 static int usage(FILE *to)
 {
     fprintf(to,
-            "usage: bench-pc SCENE.qlb [MESH.qlb]\n"
+            "usage: bench-pc [--repetitions N] SCENE.qlb [MESH.qlb]\n"
             "       bench-pc --once SCENE.qlb\n"
             "Time qlux against a float path tracer on the same rays: below 1, "
             "qlux is faster.\nA second scene shows how the time of a ray grows "
-            "with the triangles. --once traces\neach ray once and prints how "
-            "many there are, for count_pc.sh.\n"
+            "with the triangles. Times are medians of N, 31 unless told.\n"
+            "--once traces each ray once and prints how many, for count_pc.sh."
+            "\n"
             "Exit 2 if the two tracers do not see the same scene.\n"
             "\nExample: build/bench-pc build/cornell.qlb build/mesh.qlb\n");
     return to == stdout ? 0 : EXIT_USAGE;
@@ -406,6 +410,7 @@ static int usage(FILE *to)
 
 int main(int argc, char **argv)
 {
+    size_t repetitions = REPETITIONS;
     figure_t small, large;
     bool agree;
 
@@ -416,12 +421,22 @@ int main(int argc, char **argv)
         run_once(argv[2]);
         return 0;
     }
+    if (argc > 2 && strcmp(argv[1], "--repetitions") == 0) {
+        const long n = strtol(argv[2], NULL, 10);
+
+        if (n < 1 || n > REPETITIONS) {
+            return usage(stderr);
+        }
+        repetitions = (size_t)n;
+        argv += 2;
+        argc -= 2;
+    }
     if (argc < 2 || argc > 3 || argv[1][0] == '-') {
         return usage(stderr);
     }
-    agree = run(argv[1], "", &small);
+    agree = run(argv[1], "", repetitions, &small);
     if (argc == 3) {
-        agree = run(argv[2], "mesh-", &large) && agree;
+        agree = run(argv[2], "mesh-", repetitions, &large) && agree;
         printf("pc %s closest-growth: %.2f\n", PRECISION,
                 large.qlux_ns / small.qlux_ns);
         printf("# closest-growth of float: %.2f\n",
