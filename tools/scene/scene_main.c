@@ -4,6 +4,7 @@
 /* The folders beside this file; each includes only itself and those before it:
  *
  *     world   a scene as its files describe it
+ *     fill    faces of many corners to triangles
  *     foreign what other programs leave in files, what is left out of them
  *     read    texts to a world
  *     mesh    a world on its grid, smooth corners, the tree

@@ -396,7 +396,7 @@ bad_obj a_vertex_of_two_numbers_is_refused 5 'expected three coord' 'v 1 2\n'
 bad_obj a_vertex_of_letters_is_refused 5 'expected three coord' 'v 1 2 3x\n'
 bad_obj the_line_of_a_continued_face_is_its_first 5 'expected a corner' \
     'f 1 \\\n 2 \\\n x\n'
-good_obj polygons_become_fans 3 'v 1 1 1\nf 1 2 3 4 5\n'
+good_obj polygons_become_triangles 3 'v 1 1 1\nf 1 2 3 4 5\n'
 good_obj all_forms_of_corners_are_read 5 \
     'f 1/1 2/2 3/3\nf 1//1 2//2 4//4\nf 2/2/2 3/3/3 4/4/4\nf 1/ 3/ 4/\n'\
 'f -1 -2 -3\n'

@@ -12,6 +12,7 @@
 #include "lib/program/alloc.h"
 #include "lib/program/cli.h"
 #include "lib/program/names.h"
+#include "scene/fill/fill.h"
 #include "scene/foreign/notes.h"
 #include "scene/read/read_mtl.h"
 #include "scene/read/text.h"
@@ -67,7 +68,7 @@ static void read_vertex(reader_t *reader)
         position[k] = text_coordinate(&reader->text, "three coordinates");
     }
     if (isnan(position[0] + position[1] + position[2])) {
-        position[0] = NAN; /* until drop_faces() */
+        position[0] = NAN; /* until finish_faces() */
         notes_add(&reader->notes, reader->text.line, "vertices of no numbers",
                 "a vertex of no finite numbers is dropped with the faces that "
                 "use it");
@@ -467,12 +468,38 @@ static bool is_lost(const reader_t *reader, size_t polygon)
     return false;
 }
 
-/* Drop the polygons of vertices that are no points, then let these be 0. The
- * polygons are not needed any more. */
-static void drop_faces(reader_t *reader)
+/* Fill the outline of a polygon whose fan is at the end of the kept triangles;
+ * return how many triangles it has then. */
+static size_t fill_polygon(reader_t *reader, size_t polygon, world_face_t *fan)
+{
+    const size_t count =
+            find_end(reader, polygon) - reader->polygons[polygon].first_face;
+    const unsigned line = reader->polygons[polygon].line;
+    fill_faults_t faults;
+    const size_t filled = fill_face(&faults, reader->world, fan, count);
+
+    if (faults.crosses) {
+        notes_add(&reader->notes, line, "outlines that cross themselves",
+                "the outline of a face crosses itself: its triangles overlap");
+    }
+    if (faults.is_bent) {
+        notes_add(&reader->notes, line, "bent faces",
+                "a face is bent by more than 20 degrees: other programs may "
+                "fold it the other way");
+    }
+    if (filled == 0) {
+        notes_add(&reader->notes, line, "faces without area",
+                "a face whose outline encloses nothing is dropped");
+    }
+    return filled;
+}
+
+/* Drop the polygons of vertices that are no points, fill the others, then let
+ * these vertices be 0. The polygons are not needed any more. */
+static void finish_faces(reader_t *reader)
 {
     world_t *world = reader->world;
-    size_t kept = reader->first_face;
+    size_t kept = reader->first_face, first;
 
     for (size_t p = 0; p < reader->polygon_count; p++) {
         if (is_lost(reader, p)) {
@@ -481,10 +508,10 @@ static void drop_faces(reader_t *reader)
                     "a face of a vertex of no finite numbers is dropped");
             continue;
         }
-        for (size_t f = reader->polygons[p].first_face; f < find_end(reader, p);
-                f++) {
-            world->faces[kept++] = world->faces[f];
-        }
+        first = reader->polygons[p].first_face;
+        memmove(world->faces + kept, world->faces + first,
+                (find_end(reader, p) - first) * sizeof *world->faces);
+        kept += fill_polygon(reader, p, world->faces + kept);
     }
     world->face_count = kept;
     for (size_t v = reader->first_vertex; v < world->vertex_count; v++) {
@@ -555,6 +582,6 @@ void read_obj(world_t *world, const char *path)
     check_faces(&reader);
     resolve_materials(&reader);
     resolve_normals(&reader);
-    drop_faces(&reader);
+    finish_faces(&reader);
     close_reader(&reader);
 }

@@ -11,8 +11,9 @@
  *   world  -  in, out
  *   path   -  of the OBJ file; material libraries are beside it
  *
- * Polygons become fans. Faces without a known material are grey 0.5. Faces of
- * fewer than three corners and those of a vertex that is no point are dropped.
+ * Polygons are filled as fill_face() does it. Faces without a known material
+ * are grey 0.5. Faces of fewer than three corners and those of a vertex that is
+ * no point are dropped.
  * What is not modelled, and what is not as it should be, is reported on stderr,
  * see notes_report().
  *
