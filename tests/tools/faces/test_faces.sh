@@ -128,3 +128,68 @@ printf "mesh bent.obj\nsky 1 1 1\n" >bent.scene
 printf "camera eye 0 0 9 look 0 0 0 fov 40\n" >>bent.scene
 expect bent_faces_are_counted 0 "bent.obj:7: .*bent by .* (2 times)" \
     "$build/qlux-scene" bent.scene -o bent.qlb --quiet
+
+# ---- smooth faces ----
+# ball FIRST-LINES: 8 by 16 faces on the unit sphere
+ball() {
+    { printf 'mtllib a.mtl\nusemtl floor\n'"$1" && awk 'BEGIN {
+        for (i = 0; i <= 8; i++) for (j = 0; j < 16; j++) {
+            t = atan2(0, -1) * i / 8
+            p = atan2(0, -1) * j / 8
+            x = sin(t) * cos(p)
+            z = -sin(t) * sin(p)
+            printf "v %.6f %.6f %.6f\nvn %.6f %.6f %.6f\n", x, cos(t), z,
+                x, cos(t), z
+        }
+        for (i = 0; i < 8; i++) for (j = 0; j < 16; j++) {
+            a = 16 * i + j + 1
+            b = 16 * i + (j + 1) % 16 + 1
+            if (i == 0) printf "f %d %d %d\n", a, a + 16, b + 16
+            else if (i == 7) printf "f %d %d %d\n", a, a + 16, b
+            else printf "f %d %d %d %d\n", a, a + 16, b + 16, b
+        }
+    }'; } >ball.obj
+}
+
+# picture NAME KEY: of ball.obj, beside a lamp
+picture() {
+    printf "mesh ball.obj\n%s\nimage 32 32\n" "$2" >"$1.scene"
+    printf "sphere 3 4 5 radius 1 material lamp\n" >>"$1.scene"
+    printf 'camera eye 0 1 4 look 0 0 0 fov 36\n' >>"$1.scene"
+    "$build/qlux-scene" "$1.scene" -o "$1.qlb" --quiet 2>"$1.err"
+    "$build/qlux-sim" "$1.qlb" -o "$1.pfm" --quiet --spp 64 --bounces 0
+}
+
+# shades_as CLAIM A B RELMSE: A is silent, and differs by less from B
+shades_as() {
+    "$build/qlux-diff" "$2.pfm" "$3.pfm" >out.txt
+    relmse=$(sed -n 's/^relmse: *//p' out.txt)
+    [ ! -s "$2.err" ] &&
+        awk -v r="$relmse" -v max="$4" 'BEGIN { exit !(r != "" && r < max) }'
+    say "$1" $? "relmse $relmse"
+}
+ball ''
+sed 's/^f .*/& /; /^f/ s/\([0-9][0-9]*\) /\1\/\/\1 /g' ball.obj >round.obj
+sed '/^vn/d' ball.obj >flat.obj
+mv round.obj ball.obj && picture round ''
+mv flat.obj ball.obj && picture flat ''
+cp ball.obj plain.obj
+picture forty 'smooth 40'
+picture ten 'smooth 10'
+sed 's/^usemtl.*/&\ns 1/' plain.obj >ball.obj && picture group ''
+sed 's/^usemtl.*/&\ns off/' plain.obj >ball.obj && picture off ''
+picture said 'smooth 40'
+shades_as a_ball_of_one_group_is_as_round_as_by_its_normals group round 2e-3
+shades_as and_so_is_one_at_40_degrees forty round 2e-3
+shades_as one_of_s_off_is_flat off flat 1e-30
+shades_as at_10_degrees_its_sides_are ten flat 2e-4
+"$build/qlux-diff" flat.pfm round.pfm >out.txt
+sed -n 's/^relmse: *//p' out.txt | awk '{ exit !($1 > 2e-2) }'
+say which_is_another_picture $? "$(grep relmse out.txt)"
+cmp -s said.qlb off.qlb && grep -q 'said.scene: smooth has no effect' said.err
+say an_angle_without_effect_says_so $?
+sed 's/^usemtl.*/&\ns 1x/' plain.obj >ball.obj
+picture wrong ''
+grep -q 'ball.obj:3: expected s GROUP or s off' wrong.err
+say a_group_of_letters_is_none $?
+exit $((failures > 0))

@@ -77,7 +77,8 @@ static void fill(void)
     }
     triangles = outline.count - 2;
     for (uint32_t i = 0; i < triangles; i++) {
-        const world_face_t face = {{0, i + 1, i + 2}, 7, {9, i + 10, i + 11}};
+        const world_face_t face = {
+                {0, i + 1, i + 2}, 7, {9, i + 10, i + 11}, 0};
 
         fan[i] = face;
     }
@@ -560,7 +561,7 @@ static void fill_bent(double lift)
         (void)world_add_vertex(&world, p);
     }
     for (uint32_t i = 0; i < 2; i++) {
-        const world_face_t face = {{0, i + 1, i + 2}, 0, {0, 0, 0}};
+        const world_face_t face = {{0, i + 1, i + 2}, 0, {0, 0, 0}, 0};
 
         fan[i] = face;
     }
@@ -608,7 +609,7 @@ TEST(real_outlines_far_away_keep_their_area)
             (void)world_add_vertex(&world, p);
         }
         for (uint32_t k = 0; k < n - 2; k++) {
-            const world_face_t face = {{0, k + 1, k + 2}, 0, {0, 0, 0}};
+            const world_face_t face = {{0, k + 1, k + 2}, 0, {0, 0, 0}, 0};
 
             fan[k] = face;
             (void)add_cross(sum, &world, &face);

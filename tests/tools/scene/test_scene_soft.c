@@ -209,6 +209,21 @@ TEST(floors_of_soft_numbers_are_exact)
     CHECK(soft_floor(soft_int(0, 0)).low == 0, "0");
 }
 
+TEST(arcs_of_tangents_agree_with_libm)
+{
+    double worst = 0;
+
+    for (int i = 0; i < 20000; i++) {
+        const double x = ldexp((double)(next() >> 11), (int)(next() % 80) - 93);
+        const double got = soft_double(soft_atan(soft_from(x)));
+
+        worst = fmax(worst, fabs(got - atan(x)));
+    }
+    CHECK(worst < 0x1p-44, "%g", worst);
+    CHECK(soft_atan(soft_int(0, 0)).m == 0, "0");
+    NOTE("off by 2^%.1f at most", log2(worst));
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/scene_soft", argc, argv);
@@ -219,6 +234,7 @@ int main(int argc, char **argv)
     RUN(rounding_goes_to_nearest_with_halves_away_from_zero);
     RUN(tan_of_half_an_angle_agrees_with_libm);
     RUN(sines_of_half_turns_agree_with_libm);
+    RUN(arcs_of_tangents_agree_with_libm);
     RUN(floors_of_soft_numbers_are_exact);
     RUN(wide_integers_divide_and_take_roots_exactly);
     return TEST_END();

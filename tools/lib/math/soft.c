@@ -289,6 +289,28 @@ soft_t soft_sin_pi(soft_t x)
     return series(soft_mul(x, soft_pi()), 1);
 }
 
+soft_t soft_atan(soft_t x)
+{
+    const soft_t one = soft_int(1, 0);
+    const bool steep = soft_compare(x, one) > 0;
+    soft_t square, sum = soft_int(0, 0);
+
+    x = steep ? soft_div(one, x) : x;
+    /* half the angle, three times: x is tan(pi / 32) at most, below 0.0985 */
+    for (int i = 0; i < 3; i++) {
+        x = soft_div(
+                x, soft_add(one, soft_sqrt(soft_add(one, soft_mul(x, x)))));
+    }
+    /* x - x^3 / 3 + ..; 8 times 0.0985^13 / 13 is below 2^-44 */
+    square = soft_mul(x, x);
+    for (int k = 11; k > 0; k -= 2) {
+        sum = soft_sub(soft_div(one, soft_int(k, 0)), soft_mul(square, sum));
+    }
+    sum = soft_mul(sum, x);
+    sum.e += 3;
+    return steep ? soft_sub(soft_div(soft_pi(), soft_int(2, 0)), sum) : sum;
+}
+
 u128_t soft_floor(soft_t a)
 {
     u128_t m = {0, 0};

@@ -70,6 +70,9 @@ soft_t soft_pi(void);
 /* sin(pi x) of 0 < x < 1; error below 2^-60. */
 soft_t soft_sin_pi(soft_t x);
 
+/* The angle whose tangent is x >= 0; error below 2^-44. */
+soft_t soft_atan(soft_t x);
+
 /* floor(a) of 0 <= a < 2^128. */
 u128_t soft_floor(soft_t a);
 

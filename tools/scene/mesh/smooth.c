@@ -67,13 +67,16 @@ static bool turn_normal(int16_t normal[3], const int64_t front[3])
 static bool find_normals(const grid_t *grid, const world_t *world,
         const grid_face_t *face, int16_t normals[3][3])
 {
-    const world_face_t *from = world->faces + face->source;
+    const world_face_t *from;
     bool curved = false;
     int64_t front[3];
     soft_vec_t own;
 
-    if (face->sphere != 0 || from->normal[0] == 0 || from->normal[1] == 0 ||
-            from->normal[2] == 0) {
+    if (face->sphere != 0) {
+        return false;
+    }
+    from = world->faces + face->source;
+    if (from->normal[0] == 0 || from->normal[1] == 0 || from->normal[2] == 0) {
         return false;
     }
     own = find_normal(world, from);

@@ -48,6 +48,7 @@ typedef struct {
     used_t *used;
     size_t used_count, used_capacity;
     size_t current;    /* entry of used; 0 is "none yet" */
+    uint32_t group;    /* of s; 0 is none */
     corner_t *corners; /* of the face being read */
     size_t corner_capacity;
     polygon_t *polygons;
@@ -241,6 +242,7 @@ static void read_face(reader_t *reader)
     }
     begin_polygon(reader);
     face.material = (uint32_t)reader->current;
+    face.group = reader->group;
     set_corner(&face, 0, reader->corners[0]);
     for (size_t i = 2; i < count; i++) {
         set_corner(&face, 1, reader->corners[i - 1]);
@@ -339,6 +341,29 @@ static void read_mtllib(reader_t *reader)
     }
 }
 
+/* A smoothing group, or "off" or 0. */
+static void read_group(reader_t *reader)
+{
+    const char *word = text_word(&reader->text);
+    const world_t *world = reader->world;
+    char *end = NULL;
+    unsigned long group = 0;
+
+    if (word != NULL && *word >= '0' && *word <= '9') {
+        group = strtoul(word, &end, 10);
+    }
+    if (word != NULL && strcmp(word, "on") == 0) {
+        group = 1;
+    } else if (word == NULL ||
+               (strcmp(word, "off") != 0 && (end == NULL || *end != '\0'))) {
+        notes_add(&reader->notes, reader->text.line, "s of no group",
+                "expected s GROUP or s off: faces from here on are flat");
+        group = 0;
+    }
+    reader->group = (uint32_t)(group % UINT32_MAX); /* 64 bits at most */
+    world->meshes[world->mesh_count - 1].has_groups = true;
+}
+
 /* A key that is left out says nothing that changes the picture. */
 static void leave_out(reader_t *reader)
 {
@@ -352,7 +377,7 @@ static void read_key(reader_t *reader, const char *key)
         void (*read)(reader_t *);
     } keys[] = {{"v", read_vertex}, {"vn", read_normal}, {"f", read_face},
             {"usemtl", read_usemtl}, {"mtllib", read_mtllib}, {"vt", leave_out},
-            {"o", leave_out}, {"g", leave_out}, {"s", leave_out}};
+            {"o", leave_out}, {"g", leave_out}, {"s", read_group}};
 
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         if (strcmp(key, keys[i].name) == 0) {

@@ -9,6 +9,7 @@
 
 #include "lib/program/cli.h"
 #include "lib/program/alloc.h"
+#include "scene/crease/crease.h"
 #include "scene/read/read_obj.h"
 #include "scene/sky/read_sky.h"
 #include "scene/read/read_table.h"
@@ -131,6 +132,14 @@ static void read_exposure(text_t *text, world_t *world)
     if (world->exposure < -EXPOSURE_MAX || world->exposure > EXPOSURE_MAX) {
         text_fail(text, "expected an exposure of %d to %d stops", -EXPOSURE_MAX,
                 EXPOSURE_MAX);
+    }
+}
+
+static void read_smooth(text_t *text, world_t *world)
+{
+    world->smooth = text_number(text, "an angle in degrees");
+    if (!(world->smooth > 0 && world->smooth <= 180)) {
+        text_fail(text, "expected an angle above 0 and at most 180 degrees");
     }
 }
 
@@ -288,7 +297,7 @@ static void read_sky_line(text_t *text, world_t *world)
 }
 
 /* The keys of the language. */
-enum { MESH, CAMERA, KEY_COUNT = 9 };
+enum { MESH, CAMERA, KEY_COUNT = 10 };
 
 static const struct {
     const char *name;
@@ -300,6 +309,7 @@ static const struct {
         {"image", read_size, false},
         {"exposure", read_exposure, false},
         {"lights", read_lights, false},
+        {"smooth", read_smooth, false},
         {"lens", read_lens, false},
         {"sky", read_sky_line, false},
         {"sphere", read_sphere, true},
@@ -318,7 +328,7 @@ static void read_line(text_t *text, world_t *world, unsigned *seen)
     if (key == KEY_COUNT) {
         text_fail(text,
                 "expected mesh, camera, lens, image, sky, sphere, lights, "
-                "exposure or table, found '%s'",
+                "smooth, exposure or table, found '%s'",
                 word);
     }
     if (!keys[key].repeats && (*seen & 1u << key) != 0) {
@@ -390,4 +400,5 @@ void read_scene(world_t *world, text_t *text)
         text_fail(text, "expected a 'mesh' line before the end of the file");
     }
     resolve_spheres(world, text);
+    crease_world(world);
 }

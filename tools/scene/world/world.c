@@ -51,10 +51,14 @@ size_t world_add_material(world_t *world, const char *name, size_t name_length)
 
 void world_add_mesh(world_t *world, const char *path)
 {
+    world_mesh_t *mesh;
+
     world->meshes = alloc_grow(world->meshes, world->mesh_count,
             &world->mesh_capacity, sizeof *world->meshes);
-    world->meshes[world->mesh_count].path = alloc_text(path, strlen(path));
-    world->meshes[world->mesh_count++].first_face = world->face_count;
+    mesh = world->meshes + world->mesh_count++;
+    mesh->path = alloc_text(path, strlen(path));
+    mesh->first_face = world->face_count;
+    mesh->has_groups = false;
 }
 
 void world_add_face(world_t *world, const world_face_t *face)

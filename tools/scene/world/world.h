@@ -25,12 +25,14 @@ typedef struct {
     uint32_t vertex[3];
     uint32_t material;
     uint32_t normal[3]; /* 1 + index of each corner's; 0: none */
+    uint32_t group;     /* that a file says is smooth, by s; 0: none */
 } world_face_t;
 
 /* Its faces go to the first one of the next mesh. */
 typedef struct {
     char *path;
     size_t first_face;
+    bool has_groups; /* its file says what is smooth, by s */
 } world_mesh_t;
 
 typedef struct {
@@ -91,7 +93,9 @@ typedef struct {
     world_sky_t sky;
     int64_t width, height; /* pixels */
     double exposure;       /* stops */
-    bool two_sided;        /* lights shine to both sides */
+    double smooth;  /* degrees between faces that are, where files say nothing;
+                    * 0: none are */
+    bool two_sided; /* lights shine to both sides */
 } world_t;
 
 /* Add one; return its index. */
