@@ -46,10 +46,11 @@
 #include "blob/ql_blob_tree.c"
 
 #include "trace/ql_bvh.c"
-#include "trace/ql_shading.c"
-#include "trace/ql_smooth.c"
 #include "trace/ql_sphere.c"
-#include "trace/ql_surface_at.c"
+#include "trace/surface/ql_contact.c"
+#include "trace/surface/ql_shading.c"
+#include "trace/surface/ql_smooth.c"
+#include "trace/surface/ql_surface_at.c"
 
 #include "material/ql_bsdf.c"
 #include "material/ql_diffuse.c"

@@ -20,7 +20,8 @@ test_flags = -Werror $(if $(filter fine draft,$1),-O2 -g1,-O1 \
 test_lib := $(wildcard tests/support/*.c tests/support/picture/*.c) \
     $(wildcard sim/sim_hal.c sim/sim_fault.c firmware/app/*.c)
 support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \
-    tests/known/double/double_pt.c tests/bench/rays/bench_rays.c \
+    tests/known/double/double_pt.c tests/known/closed/rooms.c \
+    tests/bench/rays/bench_rays.c \
     tests/bench/rays/float_pt.c $(lib_src) \
     $(filter-out %_main.c,$(wildcard tools/scene/*.c tools/scene/*/*.c)) \
     $(wildcard tools/figure/*.c)
@@ -79,7 +80,7 @@ tool := $(patsubst tests/%.c,%,$(wildcard tests/tools/test_*.c \
     tests/tools/*/test_*.c))
 extreme := $(patsubst tests/%.c,%,$(wildcard tests/extreme/extreme_*.c))
 known := $(patsubst tests/%.c,%,$(wildcard tests/known/known_*.c \
-    tests/known/double/known_*.c) \
+    tests/known/double/known_*.c tests/known/closed/known_*.c) \
     $(wildcard tests/stat/stat_*.c))
 
 # Jobs, longest first, so that the last one is short: "name|command".

@@ -15,7 +15,7 @@
 /* Is there a part that not every blob has? */
 #define QL_BLOB_HAS_OPTIONAL                                                   \
     (QL_CFG_SMOOTH || QL_GLOSS || QL_CFG_SPHERES || QL_CFG_SKY ||              \
-            QL_CFG_SKY_MAP || QL_CFG_TABLES || QL_CFG_LENS)
+            QL_CFG_SKY_MAP || QL_CFG_TABLES || QL_CFG_LENS || QL_CFG_CONTACT)
 
 /* What one part finds out for another, of a blob that is being opened. */
 typedef struct {
@@ -162,6 +162,23 @@ QL_INLINE bool ql_blob_distributions_open(
 bool ql_blob_lens_open(ql_blob_parts_t *parts, ql_scene_t *scene);
 #else
 QL_INLINE bool ql_blob_lens_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    return (void)parts, (void)scene, true;
+}
+#endif
+
+/* What touches, a bit for each triangle; parts, scene as above. */
+#if QL_CFG_CONTACT
+QL_INLINE bool ql_blob_contacts_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    scene->contacts = ql_blob_optional(parts, QL_FEATURE_CONTACT,
+            sizeof *scene->contacts, (QL_TRI_MAX + 15) / 16);
+    return parts->sound &&
+           (scene->contacts == NULL ||
+                   parts->count == (parts->triangle_count + 15) / 16);
+}
+#else
+QL_INLINE bool ql_blob_contacts_open(ql_blob_parts_t *parts, ql_scene_t *scene)
 {
     return (void)parts, (void)scene, true;
 }

@@ -8,7 +8,7 @@
 #define QL_EMIT_PARTS_H
 
 #include "base/ql_settings.h"
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 #include "math/ql_real.h"
 #include "sample/ql_sampler.h"
 #include "scene/ql_ray.h"

@@ -5,7 +5,7 @@
 #define QL_EMIT_TRIANGLE_H
 
 #include "light/ql_emit_parts.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 /* A point on an emitter. */
 typedef struct {

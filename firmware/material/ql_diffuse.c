@@ -3,7 +3,7 @@
 
 #include "material/ql_diffuse.h"
 
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 #include "math/vec/ql_frame.h"
 #include "math/vec/ql_vec_unit.h"
 #include "warp/ql_warp_hemisphere.h"

@@ -5,7 +5,7 @@
 
 #if QL_GLOSS
 
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 
 /* x - (twice y 2^-29), to nearest: below 3 2^29 for unit vectors */
 static QL_NOINLINE int32_t reflect_part(int32_t x, int32_t twice, int32_t y)

@@ -5,7 +5,7 @@
 
 #if QL_CFG_PHONG
 
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 #include "math/vec/ql_frame.h"
 #include "math/vec/ql_vec_unit.h"
 #include "warp/ql_warp_lobe.h"

@@ -9,7 +9,7 @@
 #include "render/ql_next_event.h"
 #include "sample/ql_roulette.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 /* Let the camera's ray begin a path: nothing is lost yet, and an emitter that
  * it meets counts in full. */
@@ -127,9 +127,9 @@ static bool sample_ray(const ql_context_t *context, const ql_vertex_t *vertex,
 
     /* The ray begins on the side of the surface that it leads to. */
     ray->ray.origin = vertex->surface.p;
-    if (sample.through) {
-        ql_surface_cross(context->scene, vertex->tri_idx, &vertex->surface,
-                &ray->ray.origin);
+    if (sample.through && !ql_surface_cross(context->scene, vertex->tri_idx,
+                                  &vertex->surface, &ray->ray.origin)) {
+        return false;
     }
     ray->ray.direction = sample.wi;
 

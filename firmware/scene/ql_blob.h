@@ -25,6 +25,7 @@
 #define QL_DEPTH_MAX    32u    /* what qlux-scene builds at most */
 #define QL_IMAGE_MAX    16384u /* pixels a side */
 #define QL_LIGHT_SKY    65535u /* "triangle" of the light that is the sky */
+#define QL_CONTACT_EDGE 4u     /* grid units from an edge: its inside */
 
 /* Features: what a scene needs of a build. Bit, name. */
 #define QL_FEATURE_LIST(X)                                                     \
@@ -41,7 +42,8 @@
     X(QL_FEATURE_SKY, 10, "sky")                                               \
     X(QL_FEATURE_SKY_MAP, 11, "sky-map")                                       \
     X(QL_FEATURE_TABLES, 12, "tables")                                         \
-    X(QL_FEATURE_LENS, 13, "lens")
+    X(QL_FEATURE_LENS, 13, "lens")                                             \
+    X(QL_FEATURE_CONTACT, 14, "contact")
 
 enum {
 #define QL_FEATURE_ENUM(name, bit, text) name = 1 << (bit),
@@ -90,9 +92,10 @@ typedef struct {
     X(texels, ql_blob_texel_t, QL_FEATURE_SKY_MAP)                             \
     X(tables, ql_blob_distribution_t, QL_FEATURE_TABLES)                       \
     X(words, uint16_t, QL_FEATURE_TABLES)                                      \
-    X(lens, ql_blob_lens_t, QL_FEATURE_LENS)
+    X(lens, ql_blob_lens_t, QL_FEATURE_LENS)                                   \
+    X(contacts, uint16_t, QL_FEATURE_CONTACT)
 
-enum { QL_BLOB_OPTIONAL_MAX = 8 }; /* entries of that list */
+enum { QL_BLOB_OPTIONAL_MAX = 9 }; /* entries of that list */
 
 /* A pinhole camera: origin and direction are affine in the picture's plane.
  * A point (x, y) of the plane, y up, |y| <= 1 and |x| <= width/height, has

@@ -32,6 +32,7 @@ typedef struct ql_scene {
     QL_IF_BUILT(QL_CFG_TABLES, const uint16_t *words;)
     QL_IF_BUILT(QL_CFG_TABLES, uint16_t table_count;)
     QL_IF_BUILT(QL_CFG_LENS, const ql_blob_lens_t *lens;)
+    QL_IF_BUILT(QL_CFG_CONTACT, const uint16_t *contacts;)
 } ql_scene_t;
 
 /* Corner i of a triangle, grid units. */
@@ -86,7 +87,8 @@ QL_INLINE const ql_blob_material_t *ql_scene_material(
  *   ql_scene_sphere   the sphere that an entry of the table of triangles is
  *   ql_scene_sky      light from all around; black without
  *   ql_scene_texels   the map of the sky, which is constant without
- *   ql_scene_lens     the lens of the camera, a pinhole without */
+ *   ql_scene_lens     the lens of the camera, a pinhole without
+ *   ql_scene_contacts what touches; nothing does without */
 #if QL_CFG_SMOOTH
 QL_INLINE const ql_blob_normal_t *ql_scene_normals(const ql_scene_t *scene)
 {
@@ -154,6 +156,19 @@ QL_INLINE const ql_blob_texel_t *ql_scene_texels(const ql_scene_t *scene)
 }
 #else
 QL_INLINE const ql_blob_texel_t *ql_scene_texels(const ql_scene_t *scene)
+{
+    (void)scene;
+    return NULL;
+}
+#endif
+
+#if QL_CFG_CONTACT
+QL_INLINE const uint16_t *ql_scene_contacts(const ql_scene_t *scene)
+{
+    return scene->contacts;
+}
+#else
+QL_INLINE const uint16_t *ql_scene_contacts(const ql_scene_t *scene)
 {
     (void)scene;
     return NULL;

@@ -353,29 +353,71 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
     }
 }
 
+/* Is a segment closed at its far end? Then it ignores a triangle too, not just
+ * a sphere. */
+typedef enum { END_OPEN, END_CLOSED } end_t;
+
+/* Close the far ends of a segment's intervals: they hold one integer more if it
+ * ends on that. */
+QL_FAST_INLINE void probe_close(
+        probe_t *p, interval_t axes[3], const ql_ray_t *ray)
+{
+    const int32_t to[3] = {ray->origin.x + ray->direction.x,
+            ray->origin.y + ray->direction.y, ray->origin.z + ray->direction.z};
+
+    for (unsigned k = 0; k < 3; k++) {
+        if ((to[k] & ((1 << QL_POS_BITS) - 1)) == 0) {
+            axes[k].low -= p->backward >> k & 1;
+            axes[k].span++;
+        }
+    }
+    p->z = axes[p->kz >> 1];
+}
+
+/* Does a triangle at t / det of a segment count? */
+QL_FAST_INLINE bool blocks(uint64_t t, uint64_t det, end_t end, bool is_but)
+{
+    return end == END_CLOSED ? t <= det && !is_but : t < det;
+}
+
+#if QL_CFG_SPHERES
+QL_FAST_INLINE bool sphere_blocks(
+        const ql_blob_sphere_t *sphere, const ql_ray_t *ray, end_t end)
+{
+    ql_vec3_t to = ray->origin;
+
+    to.x += ray->direction.x;
+    to.y += ray->direction.y;
+    to.z += ray->direction.z;
+    return ql_sphere_blocks(sphere, ray) ||
+           (end == END_CLOSED &&
+                   ql_sphere_side(sphere, ql_sphere_offset(sphere, to)) == 0);
+}
+#endif
+
 QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
-        uint16_t but, unsigned first, unsigned count)
+        uint16_t but, end_t end, unsigned first, unsigned count)
 {
     const ql_blob_tri_t *tri = scene->triangles + first;
-    const ql_blob_tri_t *const end = tri + count;
+    const ql_blob_tri_t *const last = tri + count;
 
-    for (; tri < end; tri++) {
+    for (; tri < last; tri++) {
+        const bool is_but = (QL_CFG_SPHERES || QL_CFG_GLASS) &&
+                            (uint16_t)(tri - scene->triangles) == but;
         uint64_t det, t;
 
 #if QL_CFG_SPHERES
         const ql_blob_sphere_t *const sphere = ql_scene_sphere(scene, tri);
 
         if (sphere != NULL) {
-            if ((uint16_t)(tri - scene->triangles) != but &&
-                    ql_sphere_blocks(sphere, ray)) {
+            if (!is_but && sphere_blocks(sphere, ray, end)) {
                 return true;
             }
             continue;
         }
-#else
-        (void)but;
 #endif
-        if (tri_hit(scene, tri, ray, &det, &t) != 0 && t < det) {
+        if (tri_hit(scene, tri, ray, &det, &t) != 0 &&
+                blocks(t, det, end, is_but)) {
             return true;
         }
     }
@@ -386,7 +428,7 @@ QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
  * sphere at index but does not block. Returns true as soon as a segment is
  * blocked. */
 QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
-        ql_hit_t *hit, uint16_t but, unsigned bits)
+        ql_hit_t *hit, uint16_t but, end_t end, unsigned bits)
 {
     uint32_t stack[QL_CFG_BVH_STACK];
     uint32_t *top = stack;
@@ -403,6 +445,9 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
     probe_begin(&begun, axes, ray, hit == NULL);
     p = begun; /* a copy whose address stays here can live in registers */
 #endif
+    if (end == END_CLOSED) {
+        probe_close(&p, axes, ray);
+    }
     for (;;) {
         if (meta < 3) {
             /* the far child waits; QL_CFG_BVH_STACK covers the checked depth */
@@ -411,7 +456,7 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
         } else {
             if (hit != NULL) {
                 leaf_closest(scene, ray, link, meta - 3, &p, hit);
-            } else if (leaf_occluded(scene, ray, but, link, meta - 3)) {
+            } else if (leaf_occluded(scene, ray, but, end, link, meta - 3)) {
                 return true;
             }
             if (top == stack) {
@@ -446,26 +491,40 @@ bool ql_bvh_closest_hit(
     hit->front = false;
 #if QL_CFG_NODE16
     if (!QL_CFG_NODE8 || scene->node_bits == 16) {
-        (void)walk(scene, ray, hit, 0, 16);
+        (void)walk(scene, ray, hit, 0, END_OPEN, 16);
     }
 #endif
 #if QL_CFG_NODE8
     if (!QL_CFG_NODE16 || scene->node_bits == 8) {
-        (void)walk(scene, ray, hit, 0, 8);
+        (void)walk(scene, ray, hit, 0, END_OPEN, 8);
     }
 #endif
     return hit->t != NO_HIT;
 }
 
-bool ql_bvh_occluded_but(
-        const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but)
+/* Once for both ends, or for the only one that is asked for. */
+static bool is_blocked(
+        const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but, end_t end)
 {
 #if QL_CFG_NODE16
     if (!QL_CFG_NODE8 || scene->node_bits == 16) {
-        return walk(scene, ray, NULL, but, 16);
+        return walk(scene, ray, NULL, but, end, 16);
     }
 #endif
 #if QL_CFG_NODE8
-    return walk(scene, ray, NULL, but, 8);
+    return walk(scene, ray, NULL, but, end, 8);
 #endif
 }
+
+bool ql_bvh_occluded_but(
+        const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but)
+{
+    return is_blocked(scene, ray, but, END_OPEN);
+}
+
+#if QL_CFG_CONTACT
+bool ql_bvh_touches(const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but)
+{
+    return is_blocked(scene, ray, but, END_CLOSED);
+}
+#endif

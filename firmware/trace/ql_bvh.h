@@ -36,6 +36,19 @@ bool ql_bvh_closest_hit(
 bool ql_bvh_occluded_but(
         const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but);
 
+/* Is anything on a segment, its far end included?
+ *
+ *   scene   -  open
+ *   ray     -  segment, both ends in the box; its origin lies on no surface
+ *   but     -  index of a triangle or sphere that does not count
+ *   return  true if a triangle or sphere is hit at 0 < t <= 1
+ *
+ * As exact as ql_bvh_occluded_but().
+ */
+#if QL_CFG_CONTACT
+bool ql_bvh_touches(const ql_scene_t *scene, const ql_ray_t *ray, uint16_t but);
+#endif
+
 QL_INLINE bool ql_bvh_occluded(const ql_scene_t *scene, const ql_ray_t *ray)
 {
     return ql_bvh_occluded_but(scene, ray, (uint16_t)QL_TRI_MAX);

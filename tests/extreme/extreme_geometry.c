@@ -14,7 +14,7 @@
 #include "math/vec/ql_vec_unit.h"
 #include "scene/mesh/nodes.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 #include "trace/ql_tri.h"
 
 enum { LOW = QL_GRID_MARGIN, HIGH = QL_GRID_MAX - QL_GRID_MARGIN };

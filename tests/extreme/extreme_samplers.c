@@ -19,7 +19,7 @@
 #include "sample/ql_sampler.h"
 #include "material/ql_bsdf.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 #define ONE 0x1p-29 /* of s2.29 */
 

@@ -14,7 +14,7 @@
 #include "qlux.h"
 #include "math/vec/ql_vec_unit.h"
 #include "light/ql_emit.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 #include "trace/ql_bvh.h"
 #include "trace/ql_sphere.h"
 

@@ -1,7 +1,7 @@
 /* test_bsdf.c - both lobes together: chances, densities, MIS; extremes */
 /* SPDX-License-Identifier: MIT */
 
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 #include "warp/ql_warp_lobe.h"
 #include "support/seen_phong.h"
 

@@ -2,8 +2,9 @@
 /* SPDX-License-Identifier: MIT */
 
 /* A segment is open: what lies on an end does not block it, what is one unit of
- * the last place inside does. Plates and spheres are put 0, 1 and 2 units from
- * either end, as segments and as shadows of lamps in a picture. */
+ * the last place inside does. One that is closed at its far end is blocked by
+ * what lies there too. Plates and spheres are put 0, 1 and 2 units from either
+ * end, as segments and as shadows of lamps in a picture. */
 
 #include "support/built.h"
 #include "support/picture/estimate.h"
@@ -100,6 +101,12 @@ static void check_plate(
             "axis %u, %ld ulps before to %ld beyond, %ld %ld %ld along: %s",
             axis, (long)from, (long)to, (long)along.x, (long)along.y,
             (long)along.z, got ? "blocked" : "free");
+#if QL_CFG_CONTACT
+    CHECK(from == 0 || ql_bvh_touches(&scene, &ray, (uint16_t)QL_TRI_MAX) ==
+                               (wanted || to == 0),
+            "axis %u, %ld ulps before to %ld beyond: end not closed", axis,
+            (long)from, (long)to);
+#endif
     segments++;
     blocked += got;
 }
@@ -163,6 +170,12 @@ static void check_sphere(
     CHECK(got == wanted, "axis %u, from %ld to %ld ulps outside, %s side: %s",
             axis, (long)from, (long)to, same ? "the same" : "the other",
             got ? "blocked" : "free");
+#if QL_CFG_CONTACT
+    CHECK(from == 0 || ql_bvh_touches(&scene, &ray, (uint16_t)QL_TRI_MAX) ==
+                               (wanted || to == 0),
+            "axis %u, from %ld to %ld ulps outside: end not closed", axis,
+            (long)from, (long)to);
+#endif
     segments++;
     blocked += got;
 }

@@ -1,7 +1,7 @@
 /* test_shading.c - unit normals and cosines against exact ones */
 /* SPDX-License-Identifier: MIT */
 
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 #include "support/seen_surface.h"
 
 TEST(cosines_are_within_their_bounds)

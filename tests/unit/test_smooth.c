@@ -10,7 +10,7 @@
 #include "support/ql_test.h"
 #include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 #include "trace/ql_tri.h"
 
 #if QL_CFG_SMOOTH

@@ -12,9 +12,9 @@
 #include "light/ql_emit_sphere.h"
 #include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_smooth.h"
+#include "trace/surface/ql_smooth.h"
 #include "trace/ql_sphere.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 #if QL_CFG_SPHERES
 

@@ -9,7 +9,7 @@
 #include "support/ql_test.h"
 #include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 enum {
     LOW = QL_GRID_MARGIN,

@@ -9,7 +9,7 @@
 #include "warp/ql_warp_hemisphere.h"
 #include "light/ql_light.h"
 #include "trace/ql_bvh.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 /* As cosine_direction() of ql_bsdf.c. Out of line, so that it can be timed. */
 QL_NOINLINE ql_vec3_t bench_direction(const bench_warp_t *warp)

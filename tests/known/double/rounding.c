@@ -14,7 +14,7 @@
 #include "warp/ql_warp_sphere.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 #define ULP     ldexp(1, -QL_POS_BITS) /* of a position, grid units */
 #define BOX     32767.0

@@ -906,7 +906,8 @@ static uint32_t features_of(const mini_scene_t *m, unsigned lights)
             (m->has_sky ? (uint32_t)QL_FEATURE_SKY : 0u) |
             (m->sky_entry.width ? (uint32_t)QL_FEATURE_SKY_MAP : 0u) |
             (m->table_count ? (uint32_t)QL_FEATURE_TABLES : 0u) |
-            (m->has_lens ? (uint32_t)QL_FEATURE_LENS : 0u);
+            (m->has_lens ? (uint32_t)QL_FEATURE_LENS : 0u) |
+            (m->contact ? (uint32_t)QL_FEATURE_CONTACT : 0u);
 
     for (unsigned i = 0; i < m->material_count; i++) {
         switch (m->materials[i].gloss) {
@@ -1058,6 +1059,12 @@ static void put_more(writer_t *w, tables_t *tables, unsigned gloss)
     }
     if (wanted(w, tables, OPTIONAL_lens, QL_FEATURE_LENS, 1)) {
         put_lens(w);
+    }
+    if (wanted(w, tables, OPTIONAL_contacts, QL_FEATURE_CONTACT,
+                (m->triangle_count + 15) / 16)) {
+        for (unsigned i = 0; i < (m->triangle_count + 15) / 16; i++) {
+            put(w, 0xffff, 2);
+        }
     }
 }
 

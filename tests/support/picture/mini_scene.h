@@ -51,6 +51,7 @@ typedef struct {
     unsigned node_bits;     /* 16 or 8; the most built in unless set */
     unsigned leaf_max;      /* triangles, 1 to 13; 4 unless set */
     bool two_sided;         /* emitters */
+    bool contact;           /* every face may touch another */
 
     /* Faults to plant: what a broken light table would say. */
     double light_weight_scale; /* 1 unless set */

@@ -24,8 +24,9 @@ typedef enum { WITH_ALL, WITH_8_BITS, WITH_CONSTANT_SKY } scene_kind_t;
 static mini_scene_t mini;
 
 /* One triangle and one sphere that shine and two that do not, each gloss, a
- * map of the sky, tables, a lens. Entries are in the order of their making but
- * for triangles, which the tree sorts, and materials, glossy ones first. */
+ * map of the sky, tables, a lens, contacts. Entries are in the order of their
+ * making but for triangles, which the tree sorts, and materials, glossy ones
+ * first. */
 static void build(scene_kind_t kind)
 {
     static const int32_t ball[2][3] = {
@@ -70,6 +71,7 @@ static void build(scene_kind_t kind)
         mini_sky_map(&mini, 8, 4, (const double(*)[3])rgb, 0.3);
     }
     mini_lens(&mini, lens[0], lens[1]);
+    mini.contact = true;
     mini_field(&mini, right, up);
     mini_open(&mini, &scene);
 }
@@ -149,7 +151,8 @@ static const blob_field_t *field_of(const blob_table_t *table, const char *name)
     exit(2);
 }
 
-/* Move a table to the end, as so many entries; new ones are as its last. */
+/* Move a table to the end, as so many entries; new ones are as its last. With
+ * the triangles goes the table of what touches. */
 static void grow(const blob_table_t *table, uint32_t count)
 {
     ql_blob_table_t *const place = place_of(table);
@@ -169,6 +172,9 @@ static void grow(const blob_table_t *table, uint32_t count)
     place->count = count;
     copy.size = (copy.size + count * bytes + 3) / 4 * 4;
     header()->size_bytes = copy.size;
+    if (strcmp(table->name, "triangles") == 0) {
+        grow(table_of("contacts"), (count + 15) / 16);
+    }
 }
 
 /* ---- Rules of fields --------------------------------------------------- */
@@ -235,8 +241,8 @@ static const rule_t rules[] = {
         NOT_BY("header", "magic", 0x58554c50u, QL_ERR_MAGIC),
         NOT_BY("header", "version", 0, QL_ERR_VERSION),
         NOT_BY("header", "version", 2, QL_ERR_VERSION),
-        NOT_BY("header", "header_bytes", 88 + 8 * 7, QL_ERR_VERSION),
-        NOT_BY("header", "header_bytes", 88 + 8 * 9, QL_ERR_VERSION),
+        NOT_BY("header", "header_bytes", 88 + 8 * 8, QL_ERR_VERSION),
+        NOT_BY("header", "header_bytes", 88 + 8 * 10, QL_ERR_VERSION),
         NOT_BY("header", "size_bytes", 0x7ffffffcu, QL_ERR_TRUNCATED),
         NOT_BY("header", "size_bytes", 84, QL_ERR_RANGE),
         NOT_BY("header", "features", 0x40003fe5u, QL_ERR_FEATURE),
@@ -368,6 +374,8 @@ static const rule_t rules[] = {
         WIDE_REACHES("lens", "p[1]"),
         REACHES("lens", "d[0]"),
         REACHES("lens", "d[1]"),
+
+        FREE("contacts", "word"),
 };
 enum { RULES = sizeof rules / sizeof rules[0] };
 
@@ -643,7 +651,7 @@ TEST(tables_have_no_more_entries_than_the_format_allows)
         const char *name;
         uint32_t exact;
     } exact[] = {{"camera", 1}, {"vertices", 7}, {"normals", 7}, {"pairs16", 3},
-            {"sky", 1}, {"texels", 32}, {"lens", 1}};
+            {"sky", 1}, {"texels", 32}, {"lens", 1}, {"contacts", 1}};
 
     tried = 0;
     for (unsigned i = 0; i < sizeof most / sizeof most[0]; i++) {
@@ -681,7 +689,7 @@ TEST(features_are_those_that_the_blob_has)
         const uint32_t free_ones = QL_FEATURE_TWO_SIDED | QL_FEATURE_PAGES;
         const uint32_t same_header = kinds | QL_FEATURE_LIGHTS |
                                      QL_FEATURE_NODE16 | QL_FEATURE_NODE8;
-        const ql_status_t wanted = bit > 13                ? QL_ERR_FEATURE
+        const ql_status_t wanted = bit > 14                ? QL_ERR_FEATURE
                                    : feature & free_ones   ? QL_OK
                                    : feature & same_header ? QL_ERR_RANGE
                                                            : QL_ERR_VERSION;
@@ -717,7 +725,7 @@ TEST(tables_that_others_need_cannot_be_left_out)
     } optional[] = {{"normals", NULL, false}, {"gloss", NULL, false},
             {"spheres", NULL, true}, {"sky", NULL, true},
             {"texels", NULL, true}, {"tables", "words", true},
-            {"lens", NULL, false}};
+            {"lens", NULL, false}, {"contacts", NULL, false}};
 
     for (unsigned i = 0; i < sizeof optional / sizeof optional[0]; i++) {
         const blob_table_t *const table = table_of(optional[i].name);

@@ -174,12 +174,15 @@ ROWS(tables, DISTRIBUTION, ql_blob_distribution_t);
 ROWS(lens, LENS, ql_blob_lens_t);
 
 /* A word is no struct, but a number by itself. */
-static const blob_field_t words_rows[] = {{.name = "word",
-        .kind = BLOB_X16,
-        .count = 1,
-        .gap = 1,
-        .key = "w",
-        .what = "a word"}};
+#define WORD_ROW(text, called)                                                 \
+    {                                                                          \
+        {                                                                      \
+            .name = "word", .kind = BLOB_X16, .count = 1, .gap = 1,            \
+            .key = text, .what = called                                        \
+        }                                                                      \
+    }
+static const blob_field_t words_rows[] = WORD_ROW("w", "a word");
+static const blob_field_t contacts_rows[] = WORD_ROW("c", "marks");
 
 /* ---- the tables ---- */
 
@@ -256,6 +259,9 @@ const blob_table_t blob_tables[BLOB_TABLE_COUNT] = {
                 .count_max = WORDS_MAX, .title = "words"),
         TABLE(lens, ql_blob_lens_t, .repeat = 1, .per_line = 1, .count_min = 1,
                 .count_max = 1, .title = "lens: likewise"),
+        TABLE(contacts, uint16_t, .repeat = 1, .per_line = 8, .count_min = 1,
+                .count_max = (QL_TRI_MAX + 15) / 16,
+                .title = "contacts: a bit for each triangle"),
 };
 
 bool blob_has_table(const blob_table_t *table, uint32_t features)

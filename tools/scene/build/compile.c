@@ -16,6 +16,7 @@
 #include "scene/mesh/gain.h"
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
+#include "scene/touch/contacts.h"
 #include "scene/world/extent.h"
 
 #define PAGE            65536u /* index of a page's first vertex over page */
@@ -190,6 +191,14 @@ static void place_nodes(model_t *model, const bvh_t *bvh, unsigned node_bits)
     model->header.root_link = (uint16_t)bvh->root.link;
 }
 
+/* Mark what touches, if anything does. */
+static void place_contacts(model_t *model, const grid_t *grid, const bvh_t *bvh)
+{
+    model->contacts = contacts_find(grid, bvh);
+    model->contacts_count =
+            model->contacts != NULL ? (grid->face_count + 15) / 16 : 0;
+}
+
 /* Do surfaces emit, not just the sky? */
 static bool has_emitters(const model_t *model)
 {
@@ -230,6 +239,7 @@ static uint32_t find_features(const model_t *model)
     features |= model->spheres_count > 0 ? QL_FEATURE_SPHERES : 0;
     features |= model->tables_count > 0 ? QL_FEATURE_TABLES : 0;
     features |= model->lens_count > 0 ? QL_FEATURE_LENS : 0;
+    features |= model->contacts_count > 0 ? QL_FEATURE_CONTACT : 0;
     return features | find_gloss_features(model) | find_sky_features(model);
 }
 
@@ -272,6 +282,7 @@ void compile_model(model_t *model, const world_t *world, const grid_t *grid,
     build_sky(model, world);
     build_lights(model, grid, bvh, world->path);
     place_nodes(model, bvh, node_bits);
+    place_contacts(model, grid, bvh);
     fill_header(model, world, grid);
 }
 

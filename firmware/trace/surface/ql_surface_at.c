@@ -1,11 +1,12 @@
 /* ql_surface_at.c - hit point, exact side correction, normal */
 /* SPDX-License-Identifier: MIT */
 
-#include "trace/ql_surface_at.h"
+#include "trace/surface/ql_surface_at.h"
 
 #include "math/vec/ql_vec_unit.h"
-#include "trace/ql_smooth.h"
+#include "trace/surface/ql_smooth.h"
 #include "trace/ql_sphere.h"
+#include "trace/surface/ql_contact.h"
 
 /* t d for t in u2.30, cut towards zero: below 2^(15+f) for hits in the box */
 QL_FAST_INLINE int32_t advance(int32_t d, ql_uq30_t t)
@@ -57,46 +58,80 @@ QL_INLINE void point_at(const ql_ray_t *ray, ql_uq30_t t, ql_vec3_t *p)
     p->z = ray->origin.z + advance(ray->direction.z, t);
 }
 
-void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
+/* Set the point of a surface, its normal and 1/|n|, at hit->t; the point moves
+ * to the side it was seen from. Returns true if nothing can be near it. */
+static bool place(const ql_scene_t *scene, const ql_ray_t *ray,
         const ql_hit_t *hit, ql_surface_t *surface)
 {
     const ql_blob_tri_t *tri = scene->triangles + hit->tri_idx;
     const ql_blob_sphere_t *sphere = ql_scene_sphere(scene, tri);
     ql_edges_t t;
 
-    ql_smooth_none(surface);
+    point_at(ray, hit->t, &surface->p);
     if (sphere != NULL) {
-        point_at(ray, hit->t, &surface->p);
         ql_sphere_surface(sphere, hit->front, surface);
-        return;
+        return ql_contact_has_none(scene, hit->tri_idx);
     }
     t = ql_scene_edges(scene, tri);
     ql_vec_cross_ptr(&surface->n, hit->front ? &t.e1 : &t.e2,
             hit->front ? &t.e2 : &t.e1);
     surface->inv_n = QL_LE32(tri->inv_n);
-    point_at(ray, hit->t, &surface->p);
     (void)ql_surface_step(&surface->p, &t.v0, &surface->n);
-    if (ql_scene_normals(scene) != NULL) {
+    return ql_contact_is_clear(
+            scene, hit->tri_idx, &t, &surface->n, &surface->p);
+}
+
+/* Draw a point back along the ray, as far as it takes for nothing to be between
+ * the ray's origin and it. */
+static QL_NOINLINE void draw_back(const ql_scene_t *scene, const ql_ray_t *ray,
+        const ql_hit_t *hit, ql_surface_t *surface)
+{
+    ql_hit_t at = *hit;
+    uint32_t back = 1u << (31 - QL_DIR_BITS); /* one unit or two */
+
+    while (at.t > 0 && !ql_contact_is_free(scene, &ray->origin, &surface->p,
+                               (uint16_t)QL_TRI_MAX)) {
+        at.t = back - 1 < at.t ? at.t - back : 0; /* back may get to 0 */
+        back *= 2;
+        (void)place(scene, ray, &at, surface);
+    }
+}
+
+void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
+        const ql_hit_t *hit, ql_surface_t *surface)
+{
+    const ql_blob_tri_t *tri = scene->triangles + hit->tri_idx;
+
+    if (!place(scene, ray, hit, surface)) {
+        draw_back(scene, ray, hit, surface);
+    }
+    ql_smooth_none(surface);
+    if (ql_scene_normals(scene) != NULL &&
+            ql_scene_sphere(scene, tri) == NULL) {
         ql_smooth_at(scene, tri, ray, hit->front, surface);
     }
 }
 
 #if QL_CFG_GLASS
-void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
+bool ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         const ql_surface_t *surface, ql_vec3_t *p)
 {
     const ql_blob_tri_t *tri = scene->triangles + tri_idx;
     const ql_blob_sphere_t *sphere = ql_scene_sphere(scene, tri);
     const ql_vec3_t back = ql_vec_neg(surface->n);
-    ql_vec3_t corner;
+    ql_edges_t t;
+    bool clear;
 
     *p = surface->p;
     if (sphere != NULL) {
         (void)ql_sphere_step(sphere, p,
                 ql_sphere_side(sphere, ql_sphere_offset(sphere, *p)) < 0);
-        return;
+        clear = ql_contact_has_none(scene, tri_idx);
+    } else {
+        t = ql_scene_edges(scene, tri);
+        (void)ql_surface_step(p, &t.v0, &back);
+        clear = ql_contact_is_clear(scene, tri_idx, &t, &back, &surface->p);
     }
-    corner = ql_scene_corner(scene, tri, 0);
-    (void)ql_surface_step(p, &corner, &back);
+    return clear || ql_contact_is_free(scene, &surface->p, p, tri_idx);
 }
 #endif

@@ -1,7 +1,7 @@
 /* ql_shading.c - the cosine to the shading normal */
 /* SPDX-License-Identifier: MIT */
 
-#include "trace/ql_shading.h"
+#include "trace/surface/ql_shading.h"
 
 ql_real_t ql_shading_cosine(const ql_surface_t *surface, ql_vec3_t w)
 {

@@ -21,6 +21,11 @@
  * At most 2 steps were ever needed (tests/unit/test_surface.c, test_sphere.c);
  * the loop ends after QL_SIDE_STEPS_MAX whatever the triangle.
  *
+ * Where another surface may be that near (ql_contact.h), a segment from the
+ * ray's origin decides whether the point is in front of it. A point that is not
+ * is drawn back along the ray, by 1, 3, 7 .. units or twice that, if need be to
+ * the origin.
+ *
  * A shading normal is interpolated between the corners' with the exact weights
  * of the hit, on the side it was seen from. Where it is not above the surface
  * itself, or a corner has none, the surface is flat.
@@ -37,17 +42,18 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
  *   tri_idx  -    what was hit
  *   surface  -    from ql_surface_at()
  *   p        pos  out: surface->p, stepped until strictly on the other side
+ *   return   false if another surface is between the two points
  *
  * As exact as ql_surface_at(), and with the same limit of steps.
  */
 #if QL_CFG_GLASS
-void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
+bool ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         const ql_surface_t *surface, ql_vec3_t *p);
 #else
-QL_INLINE void ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
+QL_INLINE bool ql_surface_cross(const ql_scene_t *scene, uint16_t tri_idx,
         const ql_surface_t *surface, ql_vec3_t *p)
 {
-    (void)scene, (void)tri_idx, (void)surface, (void)p;
+    return (void)scene, (void)tri_idx, (void)surface, (void)p, true;
 }
 #endif
 

@@ -1,7 +1,7 @@
 /* ql_smooth.c - shading normals, interpolated between the corners */
 /* SPDX-License-Identifier: MIT */
 
-#include "trace/ql_smooth.h"
+#include "trace/surface/ql_smooth.h"
 
 #include "math/vec/ql_vec_unit.h"
 #include "trace/ql_tri.h"
