@@ -9,6 +9,7 @@
 #include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
 #include "lib/render/rows.h"
+#include "sim/sim_files.h"
 #include "sim/sim_render.h"
 
 #if QL_CFG_PRECISION == 0
@@ -65,39 +66,6 @@ static void describe(sums_t *sums, const ql_render_t *render)
     f[SUMS_TABLE_LERP] = QL_CFG_TABLE_LERP;
 }
 
-/* How many samples each pixel took. */
-static void write_map(const sums_t *sums, cli_out_t *out)
-{
-    image_writer_t writer;
-    image_t line;
-
-    image_new_floats(&line, sums->field[SUMS_WIDTH], 1);
-    image_begin(&writer, IMAGE_PFM, line.width, sums->field[SUMS_HEIGHT], out);
-    for (uint32_t i = 0; i < sums->field[SUMS_HEIGHT]; i++) {
-        for (uint32_t k = 0; k < 3 * line.width; k++) {
-            line.floats[k] = (float)sums_count(/* exact: <= 2^24 */
-                    sums, k / 3, image_row_at(&writer, i));
-        }
-        image_row(&writer, &line);
-    }
-    image_end(&writer);
-    image_free(&line);
-}
-
-/* Of the pixels that were rendered. */
-static double mean_count(const sums_t *sums)
-{
-    const uint32_t width = sums->field[SUMS_WIDTH];
-    double sum = 0;
-
-    for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
-        for (uint32_t x = 0; x < width; x++) {
-            sum += sums_count(sums, x, y);
-        }
-    }
-    return sum / ((double)width * (sums->row_end - sums->row_first));
-}
-
 static void print_stats(const sim_stats_t *s)
 {
     rows_print_stats(s->paths, s->closest_rays, s->shadow_rays);
@@ -107,53 +75,33 @@ static void print_stats(const sim_stats_t *s)
     printf("precision: " PRECISION "\n");
 }
 
-/* Everything after the options. Outputs are opened before the work, so a bad
- * path fails at once. */
+/* Everything after the options. A second signal ends the program at once. */
 static void run(render_options_t *o, const ql_render_t *render)
 {
-    const bool has_picture = o->picture != NULL, has_save = o->save != NULL;
-    const bool has_map = o->map != NULL;
-    const develop_t how = {.kind = o->kind, .format = o->format};
-    cli_out_t picture, save, map;
-    sums_range_t range;
+    const sums_range_t whole = {
+            o->rows.first, o->rows.end, o->samples.first, o->samples.end};
+    sim_how_t how = {.threads = o->threads, .quiet = o->quiet};
+    sim_files_t files;
     sim_stats_t stats;
     sums_t sums;
 
-    render_options_rows(o, render->settings.height);
     memset(&sums, 0, sizeof sums);
     describe(&sums, render);
     sums_new(&sums, o->rows.first, o->rows.end);
-    range.row_first = o->rows.first;
-    range.row_end = o->rows.end;
-    range.sample_first = o->samples.first;
-    range.sample_end = o->samples.end;
-    sums_settle_one(&sums, &range);
-    if (has_picture) {
-        cli_out_open(&picture, o->picture);
+    if (o->resume != NULL) {
+        sim_files_resume(&sums, o->resume, &whole);
     }
-    if (has_save) {
-        cli_out_open(&save, o->save);
+    sim_files_open(&files, o);
+    if (o->progressive) {
+        how.passed = sim_files_show;
+        how.to = &files;
     }
-    if (has_map) {
-        cli_out_open(&map, o->map);
+    cli_hold_signals();
+    if (!sim_render(&sums, render, &whole, &how, &stats)) {
+        sim_files_write_part(&files, &sums);
     }
-    if (!sim_render(&sums, render, &range, o->threads, o->quiet, &stats)) {
-        cli_fail(CLI_IO, "interrupted; nothing was written");
-    }
-    if (has_picture) {
-        develop_write(&sums, &how, &picture);
-    }
-    if (has_save) {
-        sums_write(&sums, &save);
-        cli_out_commit(&save);
-    }
-    if (has_picture) {
-        cli_out_commit(&picture);
-    }
-    if (has_map) {
-        write_map(&sums, &map);
-        cli_out_commit(&map);
-    }
+    sim_files_write(&files, &sums);
+    (void)cli_release_signals();
     if (stats.saturated > 0 && !o->stats) {
         cli_warn("%" PRIu64 " contributions were cut at their limit",
                 stats.saturated);
@@ -161,7 +109,7 @@ static void run(render_options_t *o, const ql_render_t *render)
     if (o->stats) {
         print_stats(&stats);
         if (sums.counts != NULL) {
-            printf("samples-per-pixel: %.3f\n", mean_count(&sums));
+            printf("samples-per-pixel: %.3f\n", sim_files_mean_count(&sums));
         }
     }
     sums_free(&sums);
@@ -184,6 +132,7 @@ int main(int argc, char **argv)
     if (status != QL_OK) {
         options_fail("%s", ql_status_text(status));
     }
+    render_options_rows(&options, render.settings.height);
     run(&options, &render);
     free(blob);
     return CLI_DONE;

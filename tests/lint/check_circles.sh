@@ -12,7 +12,7 @@
 # in firmware/, hal/ql_hal.h, and hal/drivers/ql_bus.h between board and driver.
 #
 # The order in tools/, each may include those to its left:
-#   lib/program  lib/math  lib/image  lib/ranges  lib/render  figure  and then
+#   lib/program  lib/math  lib/image  lib/sums  lib/render  figure  and then
 #   the programs;
 #   of scene: world  fill  crease  foreign  read  mesh  touch  blob  build,
 #   then others

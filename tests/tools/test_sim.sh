@@ -56,9 +56,9 @@ for e in 1 -0.1 1e-9 nan x 0.1x ''; do
     expect "error_'$e'_is_refused" 1 "'--error' is\|from 0 to 0.99999" \
         "$sim" scene.qlb -o a.ppm --error "$e"
 done
-expect error_with_sums_is_refused 1 "'--error' goes with neither" \
+expect error_with_sums_is_refused 1 "'--error' goes with none" \
     "$sim" scene.qlb --save-sums a.qls --error 0.1
-expect error_with_samples_is_refused 1 "'--error' goes with neither" \
+expect error_with_samples_is_refused 1 "'--error' goes with none" \
     "$sim" scene.qlb -o a.ppm --samples 0:4 --error 0.1
 expect a_map_that_is_no_pfm_is_refused 1 'ends in .pfm' \
     "$sim" scene.qlb -o a.ppm --samples-map a.ppm
@@ -122,24 +122,105 @@ say a_file_too_large_is_code_3 $?
 [ $? -eq 3 ] && grep -q big.qls err.txt
 say sums_too_large_are_code_3 $?
 nothing_left a_failed_write_leaves_nothing
-echo precious >keep.ppm
-for signal in INT TERM; do
-    "$sim" scene.qlb -o keep.ppm --save-sums keep.qls --size 400x400 \
-        --spp 100000 2>err.txt &
+
+# Stopped by a signal, and gone on with to the bits of one run.
+whole="--size 90x60 --spp 300 --quiet"
+"$sim" scene.qlb -o whole.ppm --save-sums whole.qls $whole
+
+# begin FILES ARGUMENT...: start a render and wait until its files are open.
+begin() {
+    files=$1
+    shift
+    "$sim" scene.qlb "$@" 2>err.txt &
     child=$!
-    until [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 2 ] ||
+    until [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq "$files" ] ||
             ! kill -0 $child 2>/dev/null; do
         sleep 0.1
     done
-    begun=$(ls ./*.tmp 2>/dev/null | wc -l)
+}
+go_on=' of 300 samples a pixel; go on with --resume part.ppm.qls$'
+for signal in INT TERM; do
+    begin 1 -o part.ppm $whole
+    sleep 0.2
     kill -$signal $child
     wait $child
-    code=$?
-    [ "$begun" -eq 2 ] && [ $code -eq 3 ] && grep -q interrupted err.txt
-    say "a_sig$(echo $signal | tr A-Z a-z)_is_code_3" $?
+    [ $? -eq 3 ] && grep -q "$go_on" err.txt && [ -s part.ppm ]
+    say "a_sig$(echo $signal | tr A-Z a-z)_leaves_what_there_is" $?
+    "$sim" scene.qlb -o part.ppm --save-sums part.qls $whole \
+        --resume part.ppm.qls && cmp -s part.ppm whole.ppm &&
+        cmp -s part.qls whole.qls
+    say "after_a_sig$(echo $signal | tr A-Z a-z)_it_ends_with_the_same_bits" $?
 done
-[ "$(cat keep.ppm)" = precious ]
-say a_stopped_render_keeps_the_old_file $?
+"$merge" part.ppm.qls -o part.png --quiet && [ -s part.png ]
+say an_interrupted_runs_sums_are_a_part $?
+"$sim" scene.qlb -o part.ppm $whole --rows 20:40 --save-sums rows.qls &&
+    "$sim" scene.qlb -o part.ppm $whole --resume rows.qls --threads 1 &&
+    cmp -s part.ppm whole.ppm
+say rows_are_gone_on_with $?
+"$sim" scene.qlb -o part.ppm $whole --samples 100:200 --save-sums some.qls &&
+    "$sim" scene.qlb --save-sums part.qls $whole --resume some.qls &&
+    cmp -s part.qls whole.qls
+say samples_are_gone_on_with $?
+"$sim" scene.qlb -o part.ppm $whole --resume whole.qls && cmp -s part.ppm \
+    whole.ppm
+say a_complete_run_is_written_again $?
+expect another_seed_is_not_gone_on_with 2 'whole.qls: its seed is 0, but 1' \
+    "$sim" scene.qlb -o a.ppm $whole --resume whole.qls --seed 1
+expect other_samples_are_refused 2 'samples 0:300 are not of this run' \
+    "$sim" scene.qlb -o a.ppm $whole --spp 299 --resume whole.qls
+expect other_rows_are_refused 2 'rows 0:60 samples 0:300 are not of' \
+    "$sim" scene.qlb -o a.ppm $whole --rows 1:60 --resume whole.qls
+head -c 1000 whole.qls >cut.qls
+expect a_damaged_file_is_not_gone_on_with 2 'cut.qls: byte' \
+    "$sim" scene.qlb -o a.ppm $whole --resume cut.qls
+expect a_file_that_is_missing_is_code_3 3 'cannot read no.qls' \
+    "$sim" scene.qlb -o a.ppm $whole --resume no.qls
+for option in '--resume whole.qls' --progressive; do
+    expect "error_with_${option%% *}_is_refused" 1 "'--error' goes with none" \
+        "$sim" scene.qlb -o a.ppm --error 0.1 $option
+done
+expect progress_needs_a_name 1 "'--progressive' needs '-o' with a name" \
+    "$sim" scene.qlb -o - --progressive
+expect progress_needs_a_picture 1 "'--progressive' needs '-o' with a name" \
+    "$sim" scene.qlb --save-sums a.qls --progressive
+
+# Before the first row is finished nothing is there to be written. A row of
+# 16,384 pixels, each with 255 samples of the light, takes seconds.
+echo precious >keep.ppm
+long="--size 16384x16384 --rows 8192:8193 --light-samples 255"
+begin 2 -o keep.ppm --save-sums keep.qls $long
+kill -INT $child
+wait $child
+[ $? -eq 3 ] && [ "$(cat keep.ppm)" = precious ] && [ ! -e keep.qls ] &&
+    [ "$(cat err.txt)" = 'qlux-sim: interrupted; nothing was written' ]
+say a_render_stopped_at_once_keeps_the_old_file $?
+# One pixel that ends by itself: the second signal does not wait for it.
+begin 1 -o keep.ppm --size 1x1 --spp 16777216 --error 0.00001
+kill -INT $child
+sleep 0.1
+kill -INT $child
+wait $child
+[ $? -eq 3 ] && [ "$(cat keep.ppm)" = precious ] &&
+    [ "$(cat err.txt)" = 'qlux-sim: interrupted' ] &&
+    [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
+say a_second_signal_ends_it_at_once $?
+
+# The picture is renewed while it is rendered, and is the same in the end.
+begin 1 -o seen.ppm $whole --size 300x200 --progressive --threads 1
+until [ -s seen.ppm ] || ! kill -0 $child 2>/dev/null; do
+    sleep 0.02
+done
+cp seen.ppm first.ppm
+kill -0 $child 2>/dev/null
+running=$?
+kill -INT $child
+wait $child
+[ $running -eq 0 ] && [ "$(head -n 2 first.ppm | tail -n 1)" = '300 200' ] &&
+    ! cmp -s first.ppm seen.ppm
+say the_picture_is_renewed_while_it_is_rendered $?
+"$sim" scene.qlb -o seen.ppm $whole --progressive && cmp -s seen.ppm whole.ppm
+say a_renewed_picture_ends_with_the_same_bits $?
+rm -f whole.* part.* rows.qls some.qls cut.qls seen.* first.ppm
 "$sim" scene.qlb -o keep.ppm $small && head -c 2 keep.ppm | grep -q P6
 say a_finished_render_replaces_it $?
 echo old >kept.ppm

@@ -14,7 +14,7 @@
 
 #include "lib/program/options.h"
 #include "lib/render/develop.h"
-#include "merge/fields.h"
+#include "lib/render/fields.h"
 
 typedef struct {
     const char *picture;
@@ -261,18 +261,6 @@ static void end_merge(merge_t *m)
     free(m->row);
 }
 
-/* Add a row of a part to the batch's. Sums stay at their maximum as they do
- * while rendering, so any order of adding gives the same bits. */
-static void add_row(ql_sum_t *to, const ql_sum_t *row, uint32_t width)
-{
-    for (size_t k = 0; k < 3 * (size_t)width; k++) {
-        uint64_t *sum = to[k / 3].rgb + k % 3;
-        const uint64_t add = row[k / 3].rgb[k % 3];
-
-        *sum = add > UINT64_MAX - *sum ? UINT64_MAX : *sum + add;
-    }
-}
-
 static void add_batch(merge_t *m, uint32_t first)
 {
     const uint32_t width = m->whole.field[SUMS_WIDTH];
@@ -291,7 +279,8 @@ static void add_batch(merge_t *m, uint32_t first)
         open_part(part);
         for (uint32_t y = first; y < end; y++) {
             if (sums_row(&part->file, y, m->row)) {
-                add_row(m->batch + (size_t)width * (y - first), m->row, width);
+                sums_add_pixels(
+                        m->batch + (size_t)width * (y - first), m->row, width);
             }
         }
         close_part(part);

@@ -81,9 +81,11 @@ static void render(job_t *job)
             .draw = draw,
             .collect = collect};
 
+    cli_hold_signals();
     if (!rows_render(&rows)) {
         cli_fail(CLI_IO, "interrupted; nothing was written");
     }
+    (void)cli_release_signals();
 }
 
 /* Means as a picture of floats. */

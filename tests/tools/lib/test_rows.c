@@ -16,6 +16,7 @@ typedef struct {
     uint32_t first;
     bool in_order[HEIGHT];
     uint64_t samples; /* collected */
+    unsigned finished[HEIGHT];
     uint32_t stop_at; /* raise a signal at this sample of pixel (3, 5) */
 } job_t;
 
@@ -33,6 +34,12 @@ static void draw(void *shared, void *own, uint16_t x, uint16_t y,
     if (job->stop_at != 0 && x == 3 && y == 5 && first == job->stop_at) {
         (void)raise(SIGINT);
     }
+}
+
+static void finish(void *shared, void *own, uint16_t y)
+{
+    (void)own;
+    ((job_t *)shared)->finished[y]++;
 }
 
 static void collect(void *shared, void *own)
@@ -55,13 +62,18 @@ static bool run(job_t *job, const sums_range_t *range, uint32_t step,
             .own = &zero,
             .own_bytes = sizeof zero,
             .draw = draw,
+            .finish = finish,
             .collect = collect};
+    bool done;
 
     memset(job, 0, sizeof *job);
     memset(job->in_order, 1, sizeof job->in_order);
     job->first = range->sample_first;
     job->stop_at = stop_at;
-    return rows_render(&rows);
+    cli_hold_signals();
+    done = rows_render(&rows);
+    (void)cli_release_signals();
+    return done;
 }
 
 TEST(every_sample_is_drawn_once_and_in_order)
@@ -77,7 +89,8 @@ TEST(every_sample_is_drawn_once_and_in_order)
         CHECK(run(&job, &range, step, n, 0), "%u threads stopped", n);
         for (uint32_t y = 0; y < HEIGHT; y++) {
             const bool inside = y >= range.row_first && y < range.row_end;
-            CHECK(job.in_order[y], "step %u, %u threads, row %u", step, n, y);
+            CHECK(job.in_order[y] && job.finished[y] == inside,
+                    "step %u, %u threads, row %u", step, n, y);
             for (uint32_t x = 0; x < WIDTH; x++) {
                 CHECK(job.next[y][x] == (inside ? 16u : 0u),
                         "step %u, %u threads, pixel %u %u: %u samples", step, n,
@@ -118,6 +131,8 @@ TEST(a_signal_stops_within_a_step)
     static job_t job;
 
     CHECK(!run(&job, &range, 100, 1, 300), "%s", "rows that were all done");
+    CHECK(job.finished[4] == 1 && job.finished[5] == 0, "%s",
+            "other rows are finished than those above it");
     CHECK(job.next[5][3] == 400, "stopped after %u samples of the pixel",
             job.next[5][3]);
     CHECK(job.samples == (5ul * WIDTH + 3) * 1000 + 400, "collected %lu",

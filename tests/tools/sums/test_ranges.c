@@ -6,8 +6,8 @@
 #include <time.h>
 
 #include "lib/program/cli.h"
-#include "lib/ranges/marks.h"
-#include "lib/ranges/ranges.h"
+#include "lib/sums/marks.h"
+#include "lib/sums/ranges.h"
 #include "support/ql_test.h"
 
 static uint32_t below(uint32_t n)
@@ -110,6 +110,35 @@ static sums_range_t random_range(void)
     return r;
 }
 
+/* What the list lacks of a range is what is free in there, cell by cell. */
+static void check_missing(const ranges_t *list, const grid_t *grid)
+{
+    const sums_range_t whole = random_range();
+    grid_t rest = {{{0}}};
+    ranges_t want = {0, NULL}, missing;
+    uint64_t samples = 0;
+
+    (void)put(&rest, &whole, 1);
+    for (uint32_t k = 0; k < SIDE * SIDE; k++) {
+        if (grid->cell[k / SIDE][k % SIDE] != 0) {
+            rest.cell[k / SIDE][k % SIDE] = 0;
+        }
+    }
+    describe(&rest, &want);
+    ranges_missing(list, &whole, &missing);
+    CHECK(same(&missing, &want), "%u missing ranges, wanted %u", missing.count,
+            want.count);
+    for (uint32_t i = 0; i < missing.count; i++) {
+        samples += ranges_samples(missing.items + i);
+    }
+    for (uint32_t k = 0; k < SIDE * SIDE; k++) {
+        samples -= rest.cell[k / SIDE][k % SIDE] != 0;
+    }
+    CHECK(samples == 0, "%lld samples too many", (long long)samples);
+    ranges_free(&missing);
+    ranges_free(&want);
+}
+
 static void try_disjoint(unsigned wanted)
 {
     grid_t grid = {{{0}}};
@@ -130,13 +159,14 @@ static void try_disjoint(unsigned wanted)
     CHECK(same(&list, &want), "%u joined ranges, wanted %u", list.count,
             want.count);
     check_counts(&list, &grid);
+    check_missing(&list, &grid);
     CHECK(ranges_join(&list, clash) && same(&list, &want), "%s",
             "joined twice they differ");
     ranges_free(&list);
     ranges_free(&want);
 }
 
-TEST(joined_ranges_are_those_of_every_cell)
+TEST(joined_and_missing_ranges_are_those_of_every_cell)
 {
     for (unsigned i = 0; i < MANY(20000); i++) {
         try_disjoint(i % 24);
@@ -254,7 +284,7 @@ int main(int argc, char **argv)
 {
     cli_begin("test_ranges");
     TEST_BEGIN("tools/test_ranges", argc, argv);
-    RUN(joined_ranges_are_those_of_every_cell);
+    RUN(joined_and_missing_ranges_are_those_of_every_cell);
     RUN(any_overlap_is_found_and_two_of_it_named);
     RUN(two_hundred_thousand_are_joined_in_seconds);
     RUN(neighbours_are_found_at_every_level);

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "lib/render/sums.h"
+#include "lib/sums/sums.h"
 #include "support/ql_test.h"
 
 enum { WIDTH = 2, HEIGHT = 7, HEAD_BYTES = 76 };

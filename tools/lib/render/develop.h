@@ -6,7 +6,7 @@
 
 #include "lib/image/image_file.h"
 #include "film/ql_tonemap.h"
-#include "lib/render/sums.h"
+#include "lib/sums/sums.h"
 
 /* Names of ql_format_t, as an option takes them; NULL ends them. */
 extern const char *const develop_formats[QL_FORMAT_COUNT + 1];

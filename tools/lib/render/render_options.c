@@ -81,6 +81,10 @@ const option_t render_options_part[] = {
 const option_t render_options_sums[] = {
         {"--save-sums FILE", OPTION_FILE, AT(save),
                 .help = "exact sums, for qlux-merge (.qls)"},
+        {"--resume FILE", OPTION_TEXT, AT(resume),
+                .help = "go on with the sums of a run that was interrupted"},
+        {"--progressive", OPTION_FLAG, AT(progressive),
+                .help = "renew the picture after 1, 2, 4, .. samples a pixel"},
         {"--samples-map FILE", OPTION_FILE, AT(map), .words = linear,
                 .help = "how many samples each pixel took (.pfm)"},
         OPTION_END};
@@ -113,9 +117,11 @@ static void take_error(render_options_t *o)
     if (o->error > 0 && o->settings.error_q16 == 0) {
         options_fail("'--error' is 0, or 0.00001 or more");
     }
-    if (o->error > 0 && (o->save != NULL || o->samples.end != 0)) {
-        options_fail("'--error' goes with neither '--samples' nor "
-                     "'--save-sums': pixels end at samples of their own");
+    if (o->error > 0 && (o->save != NULL || o->samples.end != 0 ||
+                                o->resume != NULL || o->progressive)) {
+        options_fail("'--error' goes with none of '--samples', '--save-sums', "
+                     "'--resume' and '--progressive': pixels end at samples of "
+                     "their own");
     }
 #else
     (void)o;
@@ -224,6 +230,10 @@ void render_options_parse(
     o->settings.width = (uint16_t)o->size.width; /* at most QL_IMAGE_MAX */
     o->settings.height = (uint16_t)o->size.height;
     o->settings.roulette = o->roulette;
+    if (o->progressive &&
+            (o->picture == NULL || strcmp(o->picture, "-") == 0)) {
+        options_fail("'--progressive' needs '-o' with a name");
+    }
     take_error(o);
     take_samples(o);
     warn_of_idle(&o->settings, &start.settings);

@@ -13,6 +13,8 @@ typedef struct {
     const char *picture;    /* -o, or NULL */
     const char *save;       /* --save-sums, or NULL */
     const char *map;        /* --samples-map, or NULL */
+    const char *resume;     /* --resume, or NULL */
+    bool progressive;       /* renew the picture while it is rendered */
     image_kind_t kind;      /* of the picture */
     ql_format_t format;     /* of the display */
     ql_settings_t settings; /* width and height 0: the scene's own */
@@ -40,8 +42,8 @@ extern const option_t render_options_picture[];  /* -o, --format */
 extern const option_t render_options_settings[]; /* --size, --spp, .. */
 extern const option_t render_options_error[];    /* --error, if it is built */
 extern const option_t render_options_part[];     /* --rows, --samples */
-extern const option_t render_options_sums[]; /* --save-sums, --samples-map */
-extern const option_t render_options_run[];  /* --threads, --stats, .. */
+extern const option_t render_options_sums[];     /* --save-sums, .. */
+extern const option_t render_options_run[];      /* --threads, --stats, .. */
 
 /* Take the command line of a program, or options_fail().
  *

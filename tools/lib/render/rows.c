@@ -41,17 +41,19 @@ static void report(shared_t *shared, void *own, uint64_t *samples)
     pthread_mutex_lock(&shared->lock);
     rows->collect(rows->job, own);
     shared->done += *samples;
-    cli_progress(rows->label, shared->done, shared->total, rows->quiet);
+    cli_progress(rows->label, rows->before + shared->done,
+            rows->total != 0 ? rows->total : shared->total, rows->quiet);
     pthread_mutex_unlock(&shared->lock);
     *samples = 0;
 }
 
 /* A row, in steps short enough to stop soon. */
-static void render_row(shared_t *shared, void *own, uint32_t y)
+static void draw_row(shared_t *shared, void *own, uint32_t y)
 {
     const rows_t *rows = shared->rows;
     const uint32_t end = rows->range.sample_end;
     uint64_t fresh = 0;
+    bool whole = true;
 
     for (uint32_t x = 0; x < rows->width; x++) {
         uint32_t at = rows->range.sample_first;
@@ -64,6 +66,10 @@ static void render_row(shared_t *shared, void *own, uint32_t y)
                 report(shared, own, &fresh);
             }
         }
+        whole = whole && at == end;
+    }
+    if (whole && rows->finish != NULL) {
+        rows->finish(rows->job, own, (uint16_t)y);
     }
     report(shared, own, &fresh);
 }
@@ -77,7 +83,7 @@ static void *work(void *argument)
 
     memcpy(own, rows->own, rows->own_bytes);
     while ((y = take_row(shared)) < rows->range.row_end) {
-        render_row(shared, own, y);
+        draw_row(shared, own, y);
     }
     free(own);
     return NULL;
@@ -105,7 +111,6 @@ bool rows_render(const rows_t *rows)
     const sums_range_t *r = &rows->range;
     const uint32_t count = r->row_end - r->row_first;
     shared_t shared;
-    bool stopped;
 
     memset(&shared, 0, sizeof shared);
     shared.rows = rows;
@@ -113,11 +118,9 @@ bool rows_render(const rows_t *rows)
     shared.total =
             (uint64_t)count * rows->width * (r->sample_end - r->sample_first);
     pthread_mutex_init(&shared.lock, NULL);
-    cli_hold_signals();
     run_threads(&shared, rows->threads < count ? rows->threads : count);
-    stopped = cli_release_signals();
     pthread_mutex_destroy(&shared.lock);
-    return shared.done == shared.total && !stopped;
+    return shared.done == shared.total && !cli_interrupted();
 }
 
 void rows_print_stats(

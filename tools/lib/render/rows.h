@@ -11,7 +11,7 @@
 #ifndef ROWS_H
 #define ROWS_H
 
-#include "lib/render/sums.h"
+#include "lib/sums/sums.h"
 
 #define ROWS_STEP 4096u /* samples between two reports: some milliseconds */
 
@@ -26,6 +26,10 @@
 typedef void rows_draw_t(void *job, void *own, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count);
 
+/* A row of the range is complete. Called in the thread that drew it, which alone
+ * has it. */
+typedef void rows_finish_t(void *job, void *own, uint16_t y);
+
 /* Move the counters of a thread into those of the job and leave zeros: 32 bits
  * would wrap. Called by one thread at a time. */
 typedef void rows_collect_t(void *job, void *own);
@@ -36,19 +40,22 @@ typedef struct {
     uint32_t width;     /* px, 1..65535 */
     sums_range_t range; /* rows and samples; all within 16 bits and 2^24 */
     uint32_t step;      /* most samples of one call; 1 or more */
+    uint64_t before;    /* for the bar, samples of all pixels: done before */
+    uint64_t total;     /* ... and of all calls; 0: this one is all */
     unsigned threads;   /* 1 or more; fewer run if the system has no more */
     bool quiet;         /* no progress bar */
     void *job;          /* shared by the threads */
     const void *own;    /* each thread works on a copy of this */
     size_t own_bytes;
     rows_draw_t *draw;
+    rows_finish_t *finish; /* or NULL */
     rows_collect_t *collect;
 } rows_t;
 
 /* Render them, in this thread and rows->threads - 1 others.
  *
- *   return  false if a signal stopped it (cli_interrupted()): some samples are
- *           missing
+ *   return  false if a signal stopped it (cli_interrupted()): some rows were
+ *           not finished. The caller holds signals
  *
  * Fails: cli_fail(CLI_IO) if there is no memory.
  */

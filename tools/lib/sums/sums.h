@@ -21,7 +21,7 @@
 #define SUMS_H
 
 #include "lib/program/cli.h"
-#include "lib/ranges/ranges.h"
+#include "lib/sums/ranges.h"
 #include "film/ql_film.h"
 
 /* What parts must have in common: name, text, smallest, largest. Signed fields
@@ -81,6 +81,10 @@ uint32_t sums_count(const sums_t *sums, uint32_t x, uint32_t y);
 
 /* The pixels of a row in memory. */
 ql_sum_t *sums_pixels(const sums_t *sums, uint32_t y);
+
+/* Add pixels to others. Sums stay at their maximum as they do while rendering,
+ * so any order of adding gives the same bits. */
+void sums_add_pixels(ql_sum_t *to, const ql_sum_t *from, uint32_t count);
 
 /* Give each pixel in memory a count of its own, 0 to begin. */
 void sums_own_counts(sums_t *sums);

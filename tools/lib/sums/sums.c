@@ -6,7 +6,7 @@
 #endif
 #define _FILE_OFFSET_BITS 64
 
-#include "lib/render/sums.h"
+#include "lib/sums/sums.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -136,6 +136,16 @@ uint32_t sums_count(const sums_t *sums, uint32_t x, uint32_t y)
 ql_sum_t *sums_pixels(const sums_t *sums, uint32_t y)
 {
     return sums->pixels + place_of(sums, y);
+}
+
+void sums_add_pixels(ql_sum_t *to, const ql_sum_t *from, uint32_t count)
+{
+    for (size_t k = 0; k < 3 * (size_t)count; k++) {
+        uint64_t *sum = to[k / 3].rgb + k % 3;
+        const uint64_t add = from[k / 3].rgb[k % 3];
+
+        *sum = add > UINT64_MAX - *sum ? UINT64_MAX : *sum + add;
+    }
 }
 
 /* ---- Read -------------------------------------------------------------- */

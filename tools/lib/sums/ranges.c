@@ -1,13 +1,13 @@
 /* ranges.c - which samples of which rows: disjoint, joined, counted */
 /* SPDX-License-Identifier: MIT */
 
-#include "lib/ranges/ranges.h"
+#include "lib/sums/ranges.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib/program/cli.h"
-#include "lib/ranges/marks.h"
+#include "lib/sums/marks.h"
 
 void ranges_add(ranges_t *list, const sums_range_t *range)
 {
@@ -31,6 +31,7 @@ void ranges_free(ranges_t *list)
 
 void ranges_count(const ranges_t *list, uint32_t *counts, uint32_t height)
 {
+    memset(counts, 0, height * sizeof *counts);
     for (uint32_t i = 0; i < list->count; i++) { /* steps, which may wrap */
         const sums_range_t *r = list->items + i;
         const uint32_t n = r->sample_end - r->sample_first;
@@ -43,6 +44,79 @@ void ranges_count(const ranges_t *list, uint32_t *counts, uint32_t height)
     for (uint32_t y = 1; y < height; y++) {
         counts[y] += counts[y - 1];
     }
+}
+
+uint64_t ranges_samples(const sums_range_t *range)
+{
+    return (uint64_t)(range->row_end - range->row_first) *
+           (range->sample_end - range->sample_first);
+}
+
+/* Where below y, within the whole, another set of ranges holds the rows. */
+static uint32_t strip_end(
+        const ranges_t *list, const sums_range_t *whole, uint32_t y)
+{
+    uint32_t end = whole->row_end;
+
+    for (uint32_t i = 0; i < list->count; i++) {
+        const sums_range_t *r = list->items + i;
+
+        end = r->row_first > y && r->row_first < end ? r->row_first : end;
+        end = r->row_end > y && r->row_end < end ? r->row_end : end;
+    }
+    return end;
+}
+
+static int by_first_sample(const void *a, const void *b)
+{
+    const sums_range_t *x = a, *y = b;
+
+    return (x->sample_first > y->sample_first) -
+           (x->sample_first < y->sample_first);
+}
+
+/* What is missing in rows that the same ranges hold, of which held is a list to
+ * work with. */
+static void strip_missing(const ranges_t *list, const sums_range_t *whole,
+        sums_range_t strip, ranges_t *held, ranges_t *missing)
+{
+    held->count = 0;
+    for (uint32_t i = 0; i < list->count; i++) {
+        const sums_range_t *r = list->items + i;
+
+        if (r->row_first <= strip.row_first && r->row_end > strip.row_first &&
+                r->sample_end > whole->sample_first &&
+                r->sample_first < whole->sample_end) {
+            held->items[held->count++] = *r;
+        }
+    }
+    qsort(held->items, held->count, sizeof *held->items, by_first_sample);
+    strip.sample_first = whole->sample_first;
+    for (uint32_t i = 0; i <= held->count; i++) {
+        strip.sample_end = i < held->count ? held->items[i].sample_first
+                                           : whole->sample_end;
+        if (strip.sample_first < strip.sample_end) {
+            ranges_add(missing, &strip);
+        }
+        strip.sample_first = i < held->count ? held->items[i].sample_end : 0;
+    }
+}
+
+void ranges_missing(
+        const ranges_t *list, const sums_range_t *whole, ranges_t *missing)
+{
+    ranges_t held = {0, cli_alloc(list->count, sizeof *held.items)};
+    sums_range_t strip = *whole;
+    uint32_t clash[2];
+
+    memset(missing, 0, sizeof *missing);
+    while (strip.row_first < whole->row_end) {
+        strip.row_end = strip_end(list, whole, strip.row_first);
+        strip_missing(list, whole, strip, &held, missing);
+        strip.row_first = strip.row_end;
+    }
+    (void)ranges_join(missing, clash); /* none overlap */
+    free(held.items);
 }
 
 /* ---- A sweep downwards --------------------------------------------------- */

@@ -1,7 +1,7 @@
 /* marks.c - a set of small numbers that knows its neighbours */
 /* SPDX-License-Identifier: MIT */
 
-#include "lib/ranges/marks.h"
+#include "lib/sums/marks.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* fields.c - what a sum file's settings are called, in the words of options */
 /* SPDX-License-Identifier: MIT */
 
-#include "merge/fields.h"
+#include "lib/render/fields.h"
 
 #include <inttypes.h>
 

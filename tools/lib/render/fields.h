@@ -4,7 +4,7 @@
 #ifndef FIELDS_H
 #define FIELDS_H
 
-#include "lib/render/sums.h"
+#include "lib/sums/sums.h"
 
 /* Room for a value in words. */
 #define FIELDS_TEXT_BYTES 24

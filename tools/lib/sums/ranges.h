@@ -39,9 +39,23 @@ bool ranges_join(ranges_t *list, uint32_t clash[2]);
 
 /* Samples in each row of height; no two ranges overlap.
  *
- *   counts  -  out: height of them, 0 before
+ *   counts  -  out: height of them
  */
 void ranges_count(const ranges_t *list, uint32_t *counts, uint32_t height);
+
+/* Samples of one range, of all its rows. */
+uint64_t ranges_samples(const sums_range_t *range);
+
+/* Describe what a joined list lacks of a range.
+ *
+ *   list     -
+ *   whole    -
+ *   missing  -  out: joined; to be freed
+ *
+ * Cost: n^2 for n ranges at worst, in time.
+ */
+void ranges_missing(
+        const ranges_t *list, const sums_range_t *whole, ranges_t *missing);
 
 void ranges_free(ranges_t *list);
 
