@@ -140,8 +140,11 @@ begin() {
 }
 go_on=' of 300 samples a pixel; go on with --resume part.ppm.qls$'
 for signal in INT TERM; do
-    begin 1 -o part.ppm $whole
-    sleep 0.2
+    rm -f part.ppm
+    begin 1 -o part.ppm $whole --threads 1 --progressive
+    until [ -s part.ppm ] || ! kill -0 $child 2>/dev/null; do
+        sleep 0.02
+    done
     kill -$signal $child
     wait $child
     [ $? -eq 3 ] && grep -q "$go_on" err.txt && [ -s part.ppm ]

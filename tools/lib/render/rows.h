@@ -26,8 +26,8 @@
 typedef void rows_draw_t(void *job, void *own, uint16_t x, uint16_t y,
         uint32_t first, uint32_t count);
 
-/* A row of the range is complete. Called in the thread that drew it, which alone
- * has it. */
+/* A row of the range is complete. Called in the thread that drew it, and that
+ * alone has it. */
 typedef void rows_finish_t(void *job, void *own, uint16_t y);
 
 /* Move the counters of a thread into those of the job and leave zeros: 32 bits
