@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <time.h>
@@ -125,6 +126,43 @@ TEST(times_are_minutes_and_seconds)
     close_terminal();
 }
 
+static void set_columns(unsigned short columns)
+{
+    const struct winsize size = {.ws_row = 4, .ws_col = columns};
+
+    (void)ioctl(screen, TIOCSWINSZ, &size);
+}
+
+/* A column is always left; what does not fit is left out: cells of the bar, the
+ * bar, the label, the time. It may become wider or narrower meanwhile. */
+TEST(a_bar_is_never_wider_than_the_terminal)
+{
+    open_terminal();
+    set_columns(60);
+    step(0, 2, 8,
+            "\rlabel [########........................]  25 %             ");
+    set_columns(59);
+    step(600, 2, 8,
+            "\rlabel [########.......................]  25 % 0:01 left   ");
+    set_columns(32);
+    step(600, 4, 8, "\rlabel [##..]  50 % 0:01 left   ");
+    set_columns(31);
+    step(200, 4, 8, "\rlabel  50 % 0:01 left   ");
+    set_columns(25);
+    step(200, 4, 8, "\rlabel  50 % 0:01 left   ");
+    set_columns(24);
+    step(200, 4, 8, "\r 50 % 0:01 left   ");
+    set_columns(20);
+    step(200, 4, 8, "\r 50 % 0:02 left   ");
+    set_columns(6);
+    step(200, 4, 8, "\r 50 %");
+    set_columns(1);
+    step(200, 4, 8, "\r");
+    set_columns(20);
+    step(200, 8, 8, "\r100 % 0:02        \n");
+    close_terminal();
+}
+
 TEST(the_next_bar_begins_anew)
 {
     open_terminal();
@@ -201,6 +239,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("tools/test_progress", argc, argv);
     RUN(a_bar_shows_its_part_and_the_time_that_is_left);
     RUN(times_are_minutes_and_seconds);
+    RUN(a_bar_is_never_wider_than_the_terminal);
     RUN(the_next_bar_begins_anew);
     RUN(numbers_of_64_bits_have_parts_too);
     RUN(nothing_is_drawn_where_nobody_looks);

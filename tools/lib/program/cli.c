@@ -15,6 +15,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -417,14 +418,48 @@ double cli_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Columns of the terminal that stderr is; 80 if it does not tell. */
+static int terminal_columns(void)
+{
+#ifdef TIOCGWINSZ
+    struct winsize size;
+
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+        return size.ws_col;
+    }
+#endif
+    return 80;
+}
+
+/* "label [####....] text", without what does not fit. The last column stays
+ * free: some terminals go on to the next line behind it. */
+static void draw_progress(const char *label, double part, const char *text)
+{
+    enum { MOST = 32, LEAST = 4 }; /* of the bar */
+    const int room = terminal_columns() - 1;
+    const int rest = room - (int)strlen(label) - (int)strlen(text);
+    const int width = rest - 4 < MOST ? rest - 4 : MOST;
+    char bar[MOST + 1];
+
+    for (int i = 0; i < width; i++) {
+        bar[i] = i < part * width ? '#' : '.';
+    }
+    if (width >= LEAST) {
+        fprintf(stderr, "\r%s [%.*s] %s", label, width, bar, text);
+    } else if (rest > 0) {
+        fprintf(stderr, "\r%s %s", label, text);
+    } else {
+        fprintf(stderr, "\r%.*s", room, text);
+    }
+}
+
 void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet)
 {
-    enum { WIDTH = 32 };
     static double begun, drawn;
     const double now = cli_seconds();
     const double part = total != 0 ? (double)done / (double)total : 1;
     const bool last = done >= total;
-    char bar[WIDTH + 1], left[32] = "";
+    char left[32] = "", text[64];
 
     if (quiet || !isatty(STDERR_FILENO)) {
         return;
@@ -438,10 +473,6 @@ void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet)
         return;
     }
     drawn = now;
-    for (int i = 0; i < WIDTH; i++) {
-        bar[i] = i < part * WIDTH ? '#' : '.';
-    }
-    bar[WIDTH] = '\0';
     if (last || now - begun > 0.5) { /* too early to tell before that */
         const double s = last ? now - begun : (now - begun) * (1 / part - 1);
         if (s < 360000) {
@@ -449,8 +480,8 @@ void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet)
                     last ? "   " : "left");
         }
     }
-    fprintf(stderr, "\r%s [%s] %3d %% %-12s", label, bar, (int)(part * 100),
-            left);
+    snprintf(text, sizeof text, "%3d %% %-12s", (int)(part * 100), left);
+    draw_progress(label, part, text);
     if (last) {
         fputc('\n', stderr);
         progress_open = false;
