@@ -10,6 +10,7 @@
  *     read    texts to a world
  *     mesh    a world on its grid, smooth corners, the tree
  *     blob    a model and its bytes, a model and its text
+ *     report  what a model could not keep of a world
  *     build   a world on its grid to a model
  */
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# test_sky.sh - a map of the sky is seen from inside as it was painted
+# test_sky.sh - qlux-scene: maps of the sky, and lights dim beside others
 # SPDX-License-Identifier: MIT
 #
 # Usage: tests/tools/scene/test_sky.sh [BUILD]
@@ -120,4 +120,50 @@ blob low "Pf\n2 1\n-1\n$two\0\0\0\272" &&
 say what_is_a_little_below_0_is_0_and_counted $?
 bad what_is_far_below_0_is_refused 'pixel 1 of row 0 from the top: expected' \
     "Pf\n2 1\n-1\n$two\0\0\200\273"
+
+# ---- what is too dim beside the brightest light ----
+# lamps KE...: a blob of so many lamps, m1 first; what is said is in out.txt
+lamps()
+{
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\n' >a.obj
+    : >m.mtl
+    m=0
+    for ke; do
+        m=$((m + 1))
+        printf 'v 0 0 %s\nusemtl m%s\nf 1 2 -1\n' $m $m >>a.obj
+        printf 'newmtl m%s\nKe %s\n' $m "$ke" >>m.mtl
+    done
+    printf '%s\n' 'mesh a.obj' "${sky-}" \
+        'camera eye 0.2 -9 1.2 look 0.2 0 1.2 up 0 0 1 fov 1' >a.scene
+    "$build/qlux-scene" a.scene -o a.qlb --quiet >out.txt 2>&1
+}
+
+# says CLAIM TEXT: that and nothing else
+says()
+{
+    [ "$(sed "s/^qlux-scene: warning: a.scene: //" out.txt)" = "$2" ]
+    say "$1" $? "$(cat out.txt)"
+}
+dim='times dimmer than the brightest light'
+lamps '1e7 1e7 1e7' 1
+says a_lamp_10_million_times_dimmer_is_right ''
+lamps '1 1e-12 1'
+says a_channel_that_does_not_count_is_not_told ''
+lamps 1e10 1
+says a_lamp_10_billion_times_dimmer_is_told "material 'm2' shines 4 times as \
+bright as written, because it is 1e+10 $dim"
+sky='sky 1e-9 1e-9 2e-9' lamps 1 2
+says a_dim_sky_is_told "the sky shines 0.931 times as bright as written, \
+because it is 1.5e+09 $dim"
+lamps 1e12 2 2 2 2 2 2 2 2 2 2 2 2
+[ "$(grep -c "material 'm[0-9]*' shines" out.txt)" -eq 10 ] &&
+    grep -q ': 2 more materials are as dim' out.txt
+say ten_are_named_and_the_rest_counted $?
+printf 'v 0 -1 0\nv 1 -1 0\nv 0 -1 1\nf 1 2 3\n' >a.obj
+# 1, 2^-33, 1.5 2^-31 and 2^-24, in units of 2^-31
+blob a "Pf\n4 1\n-1\n$one\0\0\0\057\0\0\100\060\0\0\200\063"
+says dim_texels_are_counted "1 texels of the sky are off, one shines 1.33 \
+times as bright as written, because it is 1.4e+09 $dim
+1 texels of the sky are black, because they are \
+8.6e+09 $dim, or dimmer"
 exit $((failures > 0))

@@ -8,8 +8,9 @@
 
 #include "scene/build/add_table.h"
 #include "lib/program/cli.h"
+#include "scene/sky/texel.h"
 
-enum { TEXEL_BITS = 9, TEXEL_MOST = 511, SCALE_MOST = 23, ROW_BITS = 40 };
+enum { ROW_BITS = 40 };
 
 soft_t build_sky_most(const world_sky_t *sky)
 {
@@ -31,42 +32,6 @@ soft_t build_sky_most(const world_sky_t *sky)
 }
 
 /* ---- a map ---- */
-
-/* Channels of a texel in u0.32 radiance units. */
-static void unpack_texel(ql_blob_texel_t texel, uint32_t channels[3])
-{
-    for (unsigned k = 0; k < 3; k++) {
-        channels[k] = (texel.rgb9e5 >> TEXEL_BITS * k & TEXEL_MOST)
-                      << (texel.rgb9e5 >> 27);
-    }
-}
-
-/* The largest channel keeps nine bits if it has them; none is above 511 2^23,
- * as build_sky_most() made sure. */
-static ql_blob_texel_t round_texel(const float *rgb, int radiance_exp)
-{
-    ql_blob_texel_t texel = {0};
-    soft_t most = soft_int(0, 0);
-    int e = 0;
-
-    for (int k = 0; k < 3; k++) {
-        const soft_t x = soft_from((double)rgb[k]);
-
-        most = soft_compare(x, most) > 0 ? x : most;
-    }
-    while (e < SCALE_MOST &&
-            soft_round(most, 32 - radiance_exp - e) > TEXEL_MOST) {
-        e++;
-    }
-    texel.rgb9e5 = (uint32_t)e << 27;
-    for (int k = 0; k < 3; k++) {
-        const int64_t m =
-                soft_round(soft_from((double)rgb[k]), 32 - radiance_exp - e);
-
-        texel.rgb9e5 |= (uint32_t)m << TEXEL_BITS * k; /* m <= 511 */
-    }
-    return texel;
-}
 
 /* sin(theta) at the middle of a row: the solid angle of a texel is that times
  * 4 pi sin(pi / 2h) / w. An integer, so that every host has the same. */
@@ -110,7 +75,7 @@ static void build_map(model_t *model, const world_t *world)
             const float *rgb = sky->map + 3 * (row + sky->width - 1 - x);
 
             model->texels[row + x] =
-                    round_texel(rgb, model->header.radiance_exp);
+                    texel_round(rgb, model->header.radiance_exp);
             weights[row + x] = weigh_texel(model->texels[row + x], sine);
             black = black && weights[row + x] == 0;
         }
@@ -178,7 +143,7 @@ soft_t build_sky_mean(const model_t *model)
         for (uint32_t i = y * width; i < (y + 1) * width; i++) {
             uint32_t channels[3];
 
-            unpack_texel(model->texels[i], channels);
+            texel_unpack(model->texels[i], channels);
             row = soft_add(row, sum_channels(channels));
         }
         sum = soft_add(sum, soft_mul(row, sine));

@@ -13,6 +13,7 @@
 #include "scene/build/build_lights.h"
 #include "scene/build/build_materials.h"
 #include "scene/build/build_sky.h"
+#include "scene/report/faint.h"
 #include "scene/mesh/gain.h"
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
@@ -349,6 +350,7 @@ void compile_scene(
             options->node_bits == 16 ? &cost16 : &cost8, options->quiet);
     compile_model(model, world, &grid, &bvh, options->node_bits);
     report_darkness(model, world);
+    faint_report(model, world, &grid, &bvh);
     bvh_free(&bvh);
     grid_free(&grid);
 }
