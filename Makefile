@@ -142,6 +142,6 @@ clean: ## Remove build/
 	rm -rf $O
 
 include hal/boards.mk tools/trade/trade.mk
-include tests/tests.mk tests/bench/bench.mk
+include tests/fuzz/fuzz.mk tests/tests.mk tests/bench/bench.mk
 
 .PHONY: all tools help run run-pc luts warp-plots clean

@@ -90,7 +90,7 @@ jobs_known := $(foreach c,fine draft,$(call in,$(c),$(known)))
 jobs_quick := $(call in,fine,$(unit) $(tool) $(extreme)) \
     $(call in,draft,$(unit) $(extreme))
 jobs_san := $(call in,fine-san,$(unit) $(tool) $(extreme)) \
-    $(call in,draft-san,$(unit) $(extreme))
+    $(call in,draft-san,$(unit) $(extreme)) $(jobs_fuzz)
 # Of programs that come out the same, byte for byte, one runs: known once built.
 programs_configs := $(foreach c,$(filter-out $(full),$(configs)),$(addprefix \
     $O/test/$(c)/,$(unit)))

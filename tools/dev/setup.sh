@@ -5,9 +5,9 @@
 usage() {
     cat <<'END'
 usage: tools/dev/setup.sh [--check | --list | --x86]
-Install, with apt, what "make test" needs and this machine lacks; says what it
-installs, and afterwards what is missing still. The renderer, the simulator and
-the tools need none of it: only a C compiler and make.
+Install, with apt, what "make test" and "make fuzz" need and this machine lacks;
+says what it installs, and afterwards what is missing still. The renderer, the
+simulator and the tools need none of it: only a C compiler and make.
 
   --check       install nothing; if something is missing, exit 1 and print the
                 command
@@ -47,6 +47,7 @@ qemu-system-arm           qemu-system-arm
 qemu-system-riscv/qemu-system-misc  qemu-system-riscv32
 qemu-user                 qemu-ppc
 clang                     clang
+libclang-rt-dev           clang -fsanitize=fuzzer -Dmain=LLVMFuzzerTestOneInput
 clang-format              clang-format
 valgrind                  valgrind
 END

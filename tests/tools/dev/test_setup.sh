@@ -26,6 +26,7 @@ gcc,-dumpversion) echo "$gcc" ;;
 gcc,-m32) has "gcc-${gcc%%.*}-multilib" ;;
 avr-gcc,*) has avr-libc ;;
 powerpc-linux-gnu-gcc,*) has libc6-dev-powerpc-cross ;;
+clang,-fsanitize=fuzzer) has libclang-rt-dev ;;
 esac
 END
 
@@ -103,7 +104,8 @@ says() {
 
 all='gcc g++ gcc-arm-none-eabi gcc-riscv64-unknown-elf gcc-avr avr-libc
     gcc-powerpc-linux-gnu libc6-dev-powerpc-cross qemu-system-arm
-    qemu-system-misc qemu-user clang clang-format valgrind gcc-12-multilib'
+    qemu-system-misc qemu-user clang libclang-rt-dev clang-format valgrind
+    gcc-12-multilib'
 most=$(echo "$all" | sed 's/avr-libc//; s/valgrind//')
 get='apt-get install -y --no-install-recommends'
 both="apt-get update -q

@@ -10,7 +10,13 @@
 #include "lib/render/open_blob.h"
 #include "scene/blob/write_blob.h"
 
-/* Turn structs of a blob into those of this machine. */
+/* A field that says nothing, so that no dump shows it. */
+static bool is_zero(const blob_field_t *field)
+{
+    return strcmp(field->name, "zero") == 0;
+}
+
+/* Turn structs of a blob into those of this machine, which are all 0. */
 static void decode(
         void *to, const blob_struct_t *s, const uint8_t *from, size_t count)
 {
@@ -20,7 +26,8 @@ static void decode(
             const unsigned bytes = blob_number_bytes(field);
             uint64_t number = 0;
 
-            for (unsigned i = 0; i < blob_field_bytes(field); i++) {
+            for (unsigned i = 0; !is_zero(field) && i < blob_field_bytes(field);
+                    i++) {
                 const uint64_t byte = from[field->offset + i];
 
                 number = i % bytes == 0 ? byte
@@ -66,12 +73,13 @@ void read_blob(model_t *model, const char *path)
     memset(model, 0, sizeof *model);
     decode(&model->header, &blob_header.entry, blob, 1);
     get_tables(model, blob);
-    /* a dump says nothing of where tables lie, so it must go without saying */
+    /* What a dump does not say must go without saying: where tables lie, and
+     * that there are zeros between them and in fields that say nothing. */
     again = write_blob(model, &written);
     if (written != size || memcmp(again, blob, size) != 0) {
         cli_fail(CLI_INPUT,
                 "%s: expected the tables in the order and at the "
-                "offsets qlux-scene gives them",
+                "offsets qlux-scene gives them, and zeros elsewhere",
                 path);
     }
     free(again);
