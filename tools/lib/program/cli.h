@@ -62,10 +62,9 @@ bool cli_same_output(const char *a, const char *b);
  * temporary file is removed and cli_fail(CLI_IO) names path and reason. */
 void cli_out_commit(cli_out_t *out);
 
-/* Progress on a terminal: "label [####....] 42 % 0:31 left", as much of it as the
- * terminal is wide. Silent when
- * stderr is not a terminal or quiet is set. Redraws at most ten times a
- * second; done == total finishes the line. */
+/* Progress on a terminal: "label [####....] 42 % 0:31 left", or what of it fits.
+ * Silent when stderr is not a terminal or quiet is set. Redraws at most ten
+ * times a second; done == total finishes the line. */
 void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet);
 
 /* Begin a new line if the cursor stands behind a progress bar. What writes to
