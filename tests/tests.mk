@@ -128,6 +128,8 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/terminal|tests/tools/terminal/test_terminal.sh; \
     tools/run|tests/tools/dev/test_run.sh; \
     tools/setup|tests/tools/dev/test_setup.sh;
+jobs_farm := tools/parallel|tests/tools/farm/test_parallel.sh; \
+    tools/slurm|tests/tools/farm/test_slurm.sh;
 jobs_lint := lint/layers|tests/lint/check_layers.sh; \
     lint/circles|tests/lint/check_circles.sh; \
     lint/shape|tests/lint/check_shape.sh; \
@@ -183,7 +185,8 @@ test-all: boards-ready $(programs) $(helpers) $O/cornell.qlb \
     $(call programs_of,$(jobs_known) $(jobs_quick) $(jobs_san)) \
     $(programs_configs) $(programs_golden) $(whole) $(golden_blobs)
 	$(call run,$(jobs_boards)$(jobs_matrix)$(jobs_mutants)$(jobs_known)$(strip \
-	    )$(jobs_san)$(jobs_configs)$(jobs_quick)$(jobs_scripts)$(jobs_lint))
+	    )$(jobs_san)$(jobs_configs)$(jobs_farm)$(jobs_quick)$(strip \
+	    )$(jobs_scripts)$(jobs_lint))
 
 quick := $(call programs_of,$(jobs_quick)) $(helpers)
 

@@ -16,11 +16,15 @@ simulator and the tools need none of it: only a C compiler and make.
                 tests of 32-bit x86 then say that they cannot run here
   NO_INSTALL=1  as --check, from the environment
 
+The ssh server and Slurm's are services, which Debian may start when it installs
+them; the tests start their own, and only while they run.
+
 Tests have been run on Debian 12, amd64, only. Apt of Debian 13 has been asked,
-for amd64 and arm64, and can install all of it together. Debian 12 on arm64
-cannot: it has no gcc-powerpc-linux-gnu there. Ubuntu 24.04 has not been tried.
-Sizes and instructions are compared with those of Debian 12's compilers, so
-"make bench" may fail with others.
+for amd64 and arm64, and can install all of it together, but for parallel, ssh
+and Slurm, of which it has not been asked. Debian 12 on arm64 cannot: it has no
+gcc-powerpc-linux-gnu there. Ubuntu 24.04 has not been tried. Sizes and
+instructions are compared with those of Debian 12's compilers, so "make bench"
+may fail with others.
 
 Example: NO_INSTALL=1 tools/dev/setup.sh
 END
@@ -50,6 +54,12 @@ clang                     clang
 libclang-rt-dev           clang -fsanitize=fuzzer -Dmain=LLVMFuzzerTestOneInput
 clang-format              clang-format
 valgrind                  valgrind
+parallel                  parallel
+openssh-client            ssh
+openssh-server            sshd
+slurm-client              sinfo
+slurmctld                 slurmctld
+slurmd                    slurmd
 END
     x86 || return 0
     version=$(gcc -dumpversion 2>/dev/null || apt-cache show gcc 2>/dev/null |
@@ -57,6 +67,9 @@ END
     version=${version%%[!0-9]*}
     echo "gcc${version:+-$version}-multilib  gcc -m32 -include stdio.h"
 }
+
+# Services lie beside the programs that users have in PATH.
+PATH=$PATH:$(echo "$PATH" | sed 's/bin:/sbin:/g; s/bin$/sbin/')
 
 # present PROGRAM [OPTION...]
 present() {
