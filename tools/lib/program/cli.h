@@ -62,7 +62,7 @@ bool cli_same_output(const char *a, const char *b);
  * temporary file is removed and cli_fail(CLI_IO) names path and reason. */
 void cli_out_commit(cli_out_t *out);
 
-/* Progress on a terminal: "label [####....] 42 % 0:31 left", or what of it fits.
+/* Progress on a terminal: "label [####..] 42 % 0:31 left", or as much as fits.
  * Silent when stderr is not a terminal or quiet is set. Redraws at most ten
  * times a second; done == total finishes the line. */
 void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet);
