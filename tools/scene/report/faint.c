@@ -16,7 +16,7 @@
 #define GRAINY 0.125 /* a texel, one of many */
 #define MOST   10    /* materials to name */
 
-/* A light as the blob has it over the same as written, sums of channels. */
+/* A light as one sees it, and as written, sums of channels. */
 typedef struct {
     double kept, written;
 } light_t;
@@ -29,10 +29,12 @@ static double find_factor(light_t light)
     return light.written == 0 ? 1 : fmax(factor, 1 / factor);
 }
 
-/* One radiance unit. */
-static double find_unit(const model_t *model)
+/* What one sees of an emission: a product with the throughput has 31 bits. */
+static double find_seen(const model_t *model, uint32_t emission)
 {
-    return ldexp(1, model->header.radiance_exp - 32);
+    const uint32_t seen = emission / 2 + emission % 2;
+
+    return ldexp(seen, model->header.radiance_exp - 31);
 }
 
 /* ---- materials ---- */
@@ -47,7 +49,7 @@ static light_t find_emission(const model_t *model, const world_t *world,
     light_t light = {0, 0};
 
     for (int k = 0; k < 3; k++) {
-        light.kept += material->emission[k] * find_unit(model);
+        light.kept += find_seen(model, material->emission[k]);
         light.written += world->materials[face->material].ke[k] * gain;
     }
     return light;
@@ -107,7 +109,7 @@ static light_t find_texel(
     /* azimuth grows to the left of a map that is seen from inside */
     texel_unpack(model->texels[i - x + sky->width - 1 - x], rgb);
     for (size_t k = 0; k < 3; k++) {
-        light.kept += rgb[k] * find_unit(model);
+        light.kept += find_seen(model, rgb[k]);
         light.written += (double)sky->map[3 * i + k];
     }
     return light;
@@ -126,7 +128,7 @@ static sky_t find_sky(const model_t *model, const world_sky_t *sky)
     }
     for (int k = 0; k < 3; k++) {
         light.kept += model->sky_count > 0
-                              ? model->sky->emission[k] * find_unit(model)
+                              ? find_seen(model, model->sky->emission[k])
                               : 0;
         light.written += sky->colour[k];
     }
