@@ -10,7 +10,7 @@
 #include "base/ql_crc.h"
 #include "fuzz/fuzz.h"
 #include "lib/program/bytes.h"
-#include "lib/render/sums.h"
+#include "lib/sums/sums.h"
 
 enum { CRC = 4 };
 
