@@ -105,8 +105,8 @@ says() {
 all='gcc g++ gcc-arm-none-eabi gcc-riscv64-unknown-elf gcc-avr avr-libc
     gcc-powerpc-linux-gnu libc6-dev-powerpc-cross qemu-system-arm
     qemu-system-misc qemu-user clang libclang-rt-dev clang-format valgrind
-    gcc-12-multilib parallel openssh-client openssh-server slurm-client slurmctld
-    slurmd'
+    gcc-12-multilib parallel openssh-client openssh-server slurm-client
+    slurmctld slurmd'
 most=$(echo "$all" | sed 's/avr-libc//; s/valgrind//')
 get='apt-get install -y --no-install-recommends'
 both="apt-get update -q
