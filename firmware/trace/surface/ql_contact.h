@@ -39,8 +39,7 @@ bool ql_contact_is_clear(const ql_scene_t *scene, uint16_t tri_idx,
 QL_INLINE bool ql_contact_has_none(const ql_scene_t *scene, uint16_t tri_idx)
 {
     return scene->contacts == NULL ||
-           (QL_LE16(scene->contacts[tri_idx >> 4]) >> (tri_idx & 15u) & 1u) ==
-                   0;
+           (QL_LE16(scene->contacts[tri_idx >> 4]) >> (tri_idx & 15u) & 1) == 0;
 }
 
 #else
