@@ -72,6 +72,28 @@ static void write_map(sim_files_t *files, const sums_t *sums)
     cli_out_commit(&files->map);
 }
 
+/* In the terminal. */
+static void show(sim_files_t *files, const sums_t *sums)
+{
+    image_t line;
+
+    if (!files->options->show) {
+        return;
+    }
+    if (files->blocks.sums == NULL) {
+        blocks_begin(&files->blocks, sums->field[SUMS_WIDTH],
+                sums->field[SUMS_HEIGHT]);
+    }
+    image_new_bytes(&line, sums->field[SUMS_WIDTH], 1);
+    for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
+        develop_row(
+                &line, sums, sums_pixels(sums, y), y, files->options->format);
+        blocks_row(&files->blocks, y, line.bytes);
+    }
+    blocks_draw(&files->blocks, stderr);
+    image_free(&line);
+}
+
 static void write_sums(cli_out_t *save, const sums_t *sums)
 {
     sums_write(sums, save);
@@ -82,6 +104,8 @@ void sim_files_write(sim_files_t *files, const sums_t *sums)
 {
     const render_options_t *o = files->options;
 
+    show(files, sums);
+    blocks_free(&files->blocks);
     if (o->save != NULL) {
         write_sums(&files->save, sums);
     }
@@ -93,12 +117,15 @@ void sim_files_write(sim_files_t *files, const sums_t *sums)
     }
 }
 
-void sim_files_show(void *files, const sums_t *sums)
+void sim_files_renew(void *files, const sums_t *sums)
 {
     sim_files_t *f = files;
 
-    write_picture(f, sums);
-    cli_out_open(&f->picture, f->options->picture);
+    show(f, sums);
+    if (f->options->progressive) {
+        write_picture(f, sums);
+        cli_out_open(&f->picture, f->options->picture);
+    }
 }
 
 /* Where the sums of a run go that has no file for them: beside a picture that

@@ -5,6 +5,7 @@
 #define SIM_FILES_H
 
 #include "lib/render/render_options.h"
+#include "lib/terminal/blocks.h"
 
 /* The outputs of a run. */
 typedef struct {
@@ -12,6 +13,7 @@ typedef struct {
     cli_out_t picture;
     cli_out_t save;
     cli_out_t map;
+    blocks_t blocks; /* --show */
 } sim_files_t;
 
 /* Open them before the work, so that a bad path fails at once. */
@@ -20,8 +22,9 @@ void sim_files_open(sim_files_t *files, const render_options_t *options);
 /* Write them, complete. */
 void sim_files_write(sim_files_t *files, const sums_t *sums);
 
-/* Renew the picture; files is a sim_files_t. */
-void sim_files_show(void *files, const sums_t *sums);
+/* Renew the picture: its file with --progressive, the terminal with --show.
+ *   files  -  a sim_files_t */
+void sim_files_renew(void *files, const sums_t *sums);
 
 /* Write what an interrupted run has: its files, and the sums beside the picture
  * as PICTURE.qls unless they have a file already. Says how to go on, and ends

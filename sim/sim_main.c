@@ -80,7 +80,7 @@ static void run(render_options_t *o, const ql_render_t *render)
 {
     const sums_range_t whole = {
             o->rows.first, o->rows.end, o->samples.first, o->samples.end};
-    sim_how_t how = {.threads = o->threads, .quiet = o->quiet};
+    sim_how_t how = {.threads = o->threads, .quiet = o->quiet || o->show};
     sim_files_t files;
     sim_stats_t stats;
     sums_t sums;
@@ -92,8 +92,8 @@ static void run(render_options_t *o, const ql_render_t *render)
         sim_files_resume(&sums, o->resume, &whole);
     }
     sim_files_open(&files, o);
-    if (o->progressive) {
-        how.passed = sim_files_show;
+    if (o->progressive || o->show) {
+        how.passed = sim_files_renew;
         how.to = &files;
     }
     cli_hold_signals();

@@ -16,12 +16,13 @@
 #include "lib/program/bytes.h"
 #include "lib/program/options.h"
 #include "lib/render/widen.h"
+#include "lib/terminal/blocks.h"
 #include "app/ql_stream.h"
 
 typedef struct {
     const char *from, *to;
     uint32_t baud;
-    bool partial, stats, quiet;
+    bool partial, stats, show, quiet;
 } options_t;
 
 #define AT(field) OPTION_FIELD(options_t, field)
@@ -40,6 +41,8 @@ static const option_t options[] = {
         {"--stats", OPTION_FLAG, AT(stats),
                 .help = "print the board's counters as lines of \"key: "
                         "value\""},
+        {"--show", OPTION_FLAG, AT(show),
+                .help = "draw the picture in the terminal, in place of a bar"},
         {"--quiet", OPTION_FLAG, AT(quiet), .help = "no progress bar"},
         OPTION_END};
 
@@ -400,7 +403,43 @@ static void note_bad_frame(picture_t *picture, const uint8_t *frame)
     }
 }
 
-static void receive(input_t *in, picture_t *picture, bool quiet)
+/* ---- on the terminal ---------------------------------------------------- */
+
+#define SHOW_S 0.25 /* between two drawings */
+
+static void show(const picture_t *picture, blocks_t *blocks)
+{
+    const size_t bytes = 3 * (size_t)picture->width;
+
+    if (blocks->width != picture->width || blocks->height != picture->height) {
+        blocks_free(blocks);
+        blocks_begin(blocks, picture->width, picture->height);
+    }
+    for (uint32_t y = 0; y < picture->height; y++) {
+        blocks_row(blocks, y, picture->image.bytes + bytes * y);
+    }
+    blocks_draw(blocks, stderr);
+}
+
+/* A bar or the picture itself, while lines come. */
+static void report_progress(
+        const picture_t *picture, const options_t *o, blocks_t *blocks)
+{
+    static double shown;
+    const double now = cli_seconds();
+
+    if (!o->show) {
+        cli_progress("receiving", picture->good, picture->height, o->quiet);
+    } else if (picture->good > 0 && now - shown >= SHOW_S) {
+        show(picture, blocks);
+        shown = now;
+    }
+}
+
+/* ---- all of it ---------------------------------------------------------- */
+
+static void receive(
+        input_t *in, picture_t *picture, const options_t *o, blocks_t *blocks)
 {
     while (!picture->ended) {
         verdict_t verdict = PART_OF_FRAME;
@@ -420,8 +459,7 @@ static void receive(input_t *in, picture_t *picture, bool quiet)
             take_frame(picture, in->bytes + in->begin);
             in->begin += QL_STREAM_FRAME_BYTES(size);
             if (!picture->ended) { /* the last line has ended the bar */
-                cli_progress(
-                        "receiving", picture->good, picture->height, quiet);
+                report_progress(picture, o, blocks);
             }
         } else {
             if (verdict == BAD_FRAME) {
@@ -570,6 +608,7 @@ int main(int argc, char **argv)
 {
     static input_t in;
     static picture_t picture;
+    blocks_t blocks = {0};
     options_t o = {.baud = 115200};
     cli_out_t out;
 
@@ -577,11 +616,15 @@ int main(int argc, char **argv)
     cli_out_open(&out, o.to);
     cli_hold_signals();
     open_input(&in, o.from, o.baud);
-    receive(&in, &picture, o.quiet);
+    receive(&in, &picture, &o, &blocks);
     (void)cli_release_signals(); /* one that came is in.error, or too late */
     check_picture(&picture, &in);
     if (o.partial) {
         make_gaps_grey(&picture);
+    }
+    if (o.show) {
+        show(&picture, &blocks);
+        blocks_free(&blocks);
     }
     image_write(&picture.image, image_kind(o.to), &out);
     cli_out_commit(&out);

@@ -62,6 +62,35 @@ for run in "qlux-sim scene.qlb -o a.ppm --size 8x8 --spp 4" \
     say "${name}_draws_no_bar_if_it_is_to_be_quiet" $?
 done
 
+# The picture itself in place of a bar. The last drawing, 20 x 14 pixels in 7
+# lines, has the colours of the file.
+# colours: of the last seven lines, as "R G B" for each pixel from the top left
+colours() {
+    tail -n 7 seen.txt | awk 'BEGIN { FS = "\033\\[" }
+        {
+            for (i = 2; i <= NF; i++) {
+                split($i, part, "[;m]")
+                if (part[2] == 2)
+                    text[part[1] == 48] = text[part[1] == 48] part[3] " " \
+                        part[4] " " part[5] "\n"
+            }
+            printf "%s%s", text[0], text[1]
+            text[0] = text[1] = ""
+        }'
+}
+COLORTERM=truecolor "$pty" watch "$build/qlux-sim" scene.qlb -o a.ppm \
+    --size 20x14 --spp 9 --show >seen.txt
+tail -c 840 a.ppm | od -An -v -tu1 -w3 | awk '{ print $1, $2, $3 }' >want.txt
+colours | cmp -s - want.txt && [ "$(wc -l <want.txt)" -eq 280 ] &&
+    [ "$(grep -c "$(printf '\033\\[7A')" seen.txt)" -eq 3 ] &&
+    ! grep -q rendering seen.txt
+say qlux_sim_shows_its_picture $? "4 drawings"
+"$stream" 0 20 14 >shown.bin
+COLORTERM=truecolor "$pty" watch "$recv" shown.bin -o a.ppm --show >seen.txt
+tail -c 840 a.ppm | od -An -v -tu1 -w3 | awk '{ print $1, $2, $3 }' >want.txt
+colours | cmp -s - want.txt && ! grep -q receiving seen.txt
+say qlux_recv_shows_its_picture $?
+
 # Messages begin on a line of their own below the bar.
 "$stream" 0 40 30 drop 20 >short.bin
 "$pty" watch "$recv" short.bin -o gaps.ppm >seen.txt

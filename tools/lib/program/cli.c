@@ -418,17 +418,20 @@ double cli_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Columns of the terminal that stderr is; 80 if it does not tell. */
-static int terminal_columns(void)
+void cli_terminal_size(unsigned *columns, unsigned *lines)
 {
+    *columns = 80;
+    *lines = 24;
 #ifdef TIOCGWINSZ
-    struct winsize size;
+    {
+        struct winsize size;
 
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-        return size.ws_col;
+        if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+            *columns = size.ws_col;
+            *lines = size.ws_row;
+        }
     }
 #endif
-    return 80;
 }
 
 /* "label [####....] text", without what does not fit. The last column stays
@@ -436,11 +439,14 @@ static int terminal_columns(void)
 static void draw_progress(const char *label, double part, const char *text)
 {
     enum { MOST = 32, LEAST = 4 }; /* of the bar */
-    const int room = terminal_columns() - 1;
-    const int rest = room - (int)strlen(label) - (int)strlen(text);
-    const int width = rest - 4 < MOST ? rest - 4 : MOST;
+    unsigned columns, lines;
+    int room, rest, width;
     char bar[MOST + 1];
 
+    cli_terminal_size(&columns, &lines);
+    room = (int)columns - 1;
+    rest = room - (int)strlen(label) - (int)strlen(text);
+    width = rest - 4 < MOST ? rest - 4 : MOST;
     for (int i = 0; i < width; i++) {
         bar[i] = i < part * width ? '#' : '.';
     }

@@ -67,6 +67,9 @@ void cli_out_commit(cli_out_t *out);
  * times a second; done == total finishes the line. */
 void cli_progress(const char *label, uint64_t done, uint64_t total, bool quiet);
 
+/* Columns and lines of the terminal that stderr is; 80 and 24 if it is none. */
+void cli_terminal_size(unsigned *columns, unsigned *lines);
+
 /* Begin a new line if the cursor stands behind a progress bar. What writes to
  * stderr by other means than the two above calls this first. */
 void cli_below_progress(void);

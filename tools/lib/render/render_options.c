@@ -85,6 +85,8 @@ const option_t render_options_sums[] = {
                 .help = "go on with the sums of a run that was interrupted"},
         {"--progressive", OPTION_FLAG, AT(progressive),
                 .help = "renew the picture after 1, 2, 4, .. samples a pixel"},
+        {"--show", OPTION_FLAG, AT(show),
+                .help = "draw the picture in the terminal, in place of a bar"},
         {"--samples-map FILE", OPTION_FILE, AT(map), .words = linear,
                 .help = "how many samples each pixel took (.pfm)"},
         OPTION_END};

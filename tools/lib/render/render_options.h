@@ -22,6 +22,7 @@ typedef struct {
     option_range_t samples; /* within [0, spp) */
     unsigned threads;
     bool stats;
+    bool show; /* draw the picture in the terminal */
     bool quiet;
 
     /* As they were given; render_options_parse() puts them into settings. */
