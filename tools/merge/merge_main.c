@@ -204,23 +204,32 @@ static void take_part(merge_t *m, part_t *part)
     ranges_free(ranges);
 }
 
+/* Which part has a range of the list of all. */
+static const char *holder(const merge_t *m, uint32_t range)
+{
+    const part_t *part = m->parts;
+
+    while (part->range_end <= range) {
+        part++;
+    }
+    return part->file.path;
+}
+
 /* No sample may be in two parts. */
 static void settle(merge_t *m)
 {
-    const part_t *part = m->parts;
     const sums_range_t *r;
     uint32_t clash[2];
 
     if (sums_settle(&m->whole, clash)) {
         return;
     }
-    while (part->range_end <= clash[1]) {
-        part++;
-    }
     r = m->whole.ranges.items + clash[0];
-    cli_fail(CLI_INPUT, "%s: rows %u:%u samples %u:%u were counted before",
-            part->file.path, (unsigned)r->row_first, (unsigned)r->row_end,
-            (unsigned)r->sample_first, (unsigned)r->sample_end);
+    cli_fail(CLI_INPUT,
+            "%s: rows %u:%u samples %u:%u were counted before, in %s",
+            holder(m, clash[1]), (unsigned)r->row_first, (unsigned)r->row_end,
+            (unsigned)r->sample_first, (unsigned)r->sample_end,
+            holder(m, clash[0]));
 }
 
 static void begin_merge(merge_t *m, const option_list_t *names)

@@ -160,6 +160,10 @@ done
     [ "$(sums sum.qls)" = "$(sums part0.qls | while read -r hex; do
         printf '%016x\n' $((0x$hex * 500)); done)" ]
 say parts_by_the_hundred_with_few_open_files_are_merged $?
+cp s7.qls again.qls
+expect one_that_is_in_twice_is_named_both_times 2 \
+    'again.qls: rows 0:1 samples 7:8 were counted before, in s7.qls$' \
+    "$merge" s[0-9]*.qls again.qls --save-sums no.qls
 rm s[0-9]*.qls
 
 # ---- Parts of two pictures
