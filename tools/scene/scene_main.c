@@ -6,6 +6,7 @@
  *     world   a scene as its files describe it
  *     fill    faces of many corners to triangles
  *     crease  normals where faces meet
+ *     lamp    faces that shine together
  *     foreign what other programs leave in files, what is left out of them
  *     read    texts to a world
  *     mesh    a world on its grid, smooth corners, the tree

@@ -316,7 +316,7 @@ static void report_losses(const grid_t *grid, const world_t *world)
     }
 }
 
-static void report_gain(soft_t gain)
+static void report_gain(const grid_t *grid, soft_t gain)
 {
     const double off = soft_double(gain) - 1;
 
@@ -324,6 +324,10 @@ static void report_gain(soft_t gain)
         cli_warn("the area of a lamp is off by %.0f %% on the grid: its "
                  "emission makes up for it",
                 100 * off);
+    }
+    if (grid->lost_count > 0) {
+        cli_warn("%zu lamps are smaller than the grid: their light is lost",
+                grid->lost_count);
     }
 }
 
@@ -344,7 +348,7 @@ void compile_scene(
 
     grid_round(&grid, world);
     report_losses(&grid, world);
-    report_gain(gain_faces(&grid, world));
+    report_gain(&grid, gain_faces(&grid, world));
     smooth_corners(&grid, world);
     bvh_build(&bvh, &grid, options->leaf_max,
             options->node_bits == 16 ? &cost16 : &cost8, options->quiet);

@@ -3,7 +3,11 @@
 
 #include "scene/mesh/gain.h"
 
+#include <stdlib.h>
+
 #include "lib/math/soft_vec.h"
+#include "lib/program/cli.h"
+#include "scene/lamp/lamp_parts.h"
 
 /* A gain is 2^GAIN_BITS + its low bits, times 2 to its other bits less
  * GAIN_BIAS. */
@@ -79,9 +83,35 @@ static soft_t find_ratio(
             soft_div(written2, soft_mul(grid2, soft_mul(unit2, unit2))));
 }
 
+/* For each face of the world how much brighter its lamp shines for faces that
+ * are not on the grid; NULL if all are. */
+static soft_t *find_factors(grid_t *grid, const world_t *world)
+{
+    bool *kept;
+    soft_t *factors;
+
+    grid->lost_count = 0;
+    if (grid->tiny_count + grid->double_count == 0 || world->face_count == 0) {
+        return NULL;
+    }
+    kept = cli_alloc(world->face_count, sizeof *kept);
+    for (size_t f = 0; f < world->face_count; f++) {
+        kept[f] = false;
+    }
+    for (uint32_t i = 0; i < grid->face_count; i++) {
+        if (grid->faces[i].sphere == 0) {
+            kept[grid->faces[i].source] = true;
+        }
+    }
+    factors = lamp_parts_find(world, kept, &grid->lost_count);
+    free(kept);
+    return factors;
+}
+
 soft_t gain_faces(grid_t *grid, const world_t *world)
 {
     const soft_t one = soft_int(1, 0);
+    soft_t *factors = find_factors(grid, world);
     soft_t most = one;
 
     for (uint32_t i = 0; i < grid->face_count; i++) {
@@ -90,7 +120,10 @@ soft_t gain_faces(grid_t *grid, const world_t *world)
 
         face->gain = GAIN_NONE;
         if (ke[0] > 0 || ke[1] > 0 || ke[2] > 0) {
-            const soft_t ratio = find_ratio(grid, world, face);
+            const soft_t own = find_ratio(grid, world, face);
+            const soft_t ratio = factors != NULL && face->sphere == 0
+                                         ? soft_mul(own, factors[face->source])
+                                         : own;
             const soft_t off = soft_compare(ratio, one) >= 0 || ratio.m == 0
                                        ? ratio
                                        : soft_div(one, ratio);
@@ -99,5 +132,6 @@ soft_t gain_faces(grid_t *grid, const world_t *world)
             most = soft_compare(off, most) > 0 ? off : most;
         }
     }
+    free(factors);
     return most;
 }

@@ -12,9 +12,10 @@
 
 /* Set the gain of every face and sphere that emits: its area as written over
  * that on the grid, so that emission times area is what was written. The grid
- * moves a corner by up to half a unit, which is much of a small lamp.
+ * moves a corner by up to half a unit, which is much of a small lamp. The faces
+ * of a lamp that are left shine for those that are not: lamp_parts_find().
  *
- *   grid   -  in, out
+ *   grid   -  in, out; its lost_count is set
  *   world  -  the scene
  *   return    the largest gain over 1, or 1 over the smallest, of all; 1 if
  *             there are none

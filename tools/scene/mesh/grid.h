@@ -36,6 +36,7 @@ typedef struct {
     size_t tiny_count;        /* faces, spheres dropped: none on the grid */
     size_t double_count; /* faces dropped: another has corners and winding */
     size_t merged_count; /* vertices merged with another */
+    size_t lost_count;   /* lamps without any face: gain_faces() counts */
     soft_t origin[3];    /* world = origin + (grid - GRID_LOW) unit */
     soft_t unit;
 } grid_t;
