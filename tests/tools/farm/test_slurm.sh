@@ -20,7 +20,7 @@ stop() {
 }
 
 daemons=
-node=$(uname -n)
+node=$(uname -n | cut -d . -f 1)
 mkdir state
 # Sockets lie there, whose names may not be long.
 spool=$(mktemp -d /tmp/slurm.XXXXXX) || exit 3
@@ -72,6 +72,10 @@ for try in 1 2 3 4 5; do
 done
 sinfo -h -o %t 2>/dev/null | grep -q idle
 say a_cluster_of_one_node_is_up $?
+if [ $failures -ne 0 ]; then
+    tail -n 5 slurmctld.log slurmd.log
+    exit 1
+fi
 check "$farm/slurm.sh"
 [ -e many.png.parts/0.log ]
 say tasks_leave_what_they_said $?

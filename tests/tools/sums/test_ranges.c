@@ -212,8 +212,8 @@ TEST(any_overlap_is_found_and_two_of_it_named)
 /* ---- Any number ---------------------------------------------------------- */
 
 /* Long ones beside each other, with gaps, and far from them short ones, which
- * begin and end at every row. What compares each with each takes 4e10 steps. */
-TEST(two_hundred_thousand_are_joined_in_seconds)
+ * begin and end at every row. What compares each with each takes 1e10 steps. */
+TEST(a_hundred_and_fifty_thousand_are_joined_in_seconds)
 {
     enum { MANY_RANGES = 100000 };
     const clock_t begun = clock();
@@ -286,7 +286,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("tools/test_ranges", argc, argv);
     RUN(joined_and_missing_ranges_are_those_of_every_cell);
     RUN(any_overlap_is_found_and_two_of_it_named);
-    RUN(two_hundred_thousand_are_joined_in_seconds);
+    RUN(a_hundred_and_fifty_thousand_are_joined_in_seconds);
     RUN(neighbours_are_found_at_every_level);
     return TEST_END();
 }
