@@ -75,6 +75,7 @@ static uint64_t fill_sums(
 {
     sums_range_t all = {0, HEIGHT, 0, 0};
     const ql_blob_header_t *h = render->scene->header;
+    const sim_how_t how = {.threads = 3, .quiet = true};
     sim_stats_t stats;
 
     memset(sums, 0, sizeof *sums);
@@ -86,8 +87,7 @@ static uint64_t fill_sums(
             (uint32_t)(int32_t)ql_i16(QL_LE16((uint16_t)h->exposure_q8));
     sums_new(sums, 0, HEIGHT);
     all.sample_end = render->settings.spp;
-    sums_settle_one(sums, &all);
-    check(sim_render(sums, render, &all, 3, true, &stats), "the_simulator",
+    check(sim_render(sums, render, &all, &how, &stats), "the_simulator",
             finishes);
     return stats.paths;
 }
@@ -148,6 +148,7 @@ static void compare_steps(const ql_scene_t *scene)
     for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
         const uint32_t count = ranges[i].end - ranges[i].first;
         const sums_range_t range = {0, 1, ranges[i].first, ranges[i].end};
+        const sim_how_t how = {.threads = 1, .quiet = true};
         sim_stats_t stats;
         sums_t sums;
         bool same = true;
@@ -157,8 +158,7 @@ static void compare_steps(const ql_scene_t *scene)
         sums.field[SUMS_WIDTH] = 2;
         sums.field[SUMS_HEIGHT] = 1;
         sums_new(&sums, 0, 1);
-        sums_settle_one(&sums, &range);
-        same = sim_render(&sums, &render, &range, 1, true, &stats) &&
+        same = sim_render(&sums, &render, &range, &how, &stats) &&
                stats.paths == 2 * (uint64_t)count;
         for (uint16_t x = 0; x < 2; x++) {
             ql_sum_t sum = {{0, 0, 0}};
