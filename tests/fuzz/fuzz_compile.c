@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "film/ql_adaptive.h"
 #include "fuzz/fuzz.h"
 #include "lib/render/open_blob.h"
 #include "qlux.h"
@@ -19,10 +20,22 @@ static void draw_with(const ql_scene_t *scene, const ql_settings_t *settings)
     static ql_render_t render;
 
     if (ql_render_init(&render, scene, settings) == QL_OK) {
-        for (uint16_t y = 0; y < HEIGHT; y++) {
+        for (uint16_t y = 0; y < settings->height; y++) {
             ql_render_line(&render, y, &output, 1);
         }
     }
+}
+
+/* A pixel that may end by itself. */
+static void draw_adaptive(const ql_scene_t *scene)
+{
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+
+    settings.width = 1;
+    settings.height = 1;
+    settings.spp = 2 * QL_ADAPTIVE_MIN;
+    settings.error_q16 = QL_ERROR_Q16(0.1);
+    draw_with(scene, &settings);
 }
 
 void fuzz_draw(const ql_scene_t *scene)
@@ -36,11 +49,14 @@ void fuzz_draw(const ql_scene_t *scene)
         settings.direct = direct;
         settings.indirect = direct == QL_DIRECT_HEMISPHERE ? QL_INDIRECT_UNIFORM
                                                            : QL_INDIRECT_BRDF;
+        settings.lights = direct % 3;
+        settings.light_samples = (uint8_t)(1 + direct % 2);
         settings.roulette = direct == QL_DIRECT_SOLID_ANGLE;
         settings.sampler = direct == QL_DIRECT_COSINE ? QL_SAMPLER_RANDOM
                                                       : QL_SAMPLER_SOBOL;
         draw_with(scene, &settings);
     }
+    draw_adaptive(scene);
 }
 
 static void compile(const world_t *world, unsigned node_bits)
