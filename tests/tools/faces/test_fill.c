@@ -24,6 +24,7 @@ typedef struct {
     spot_t at[CORNERS_MOST];
     size_t count;
     double o[3], u[3], v[3];
+    double shake; /* how far corners may be off */
 } outline_t;
 
 static outline_t outline;
@@ -67,11 +68,12 @@ static void fill(void)
 
     open_world(&world);
     for (size_t i = 0; i < outline.count; i++) {
+        const double x = outline.at[i].x + outline.shake * uniform();
+        const double y = outline.at[i].y + outline.shake * uniform();
         double p[3];
 
         for (int k = 0; k < 3; k++) {
-            p[k] = outline.o[k] + outline.at[i].x * outline.u[k] +
-                   outline.at[i].y * outline.v[k];
+            p[k] = outline.o[k] + x * outline.u[k] + y * outline.v[k];
         }
         (void)world_add_vertex(&world, p);
     }
@@ -633,11 +635,33 @@ TEST(real_outlines_far_away_keep_their_area)
     NOTE("off by %.1e at most", worst);
 }
 
+TEST(bridges_that_rounding_takes_apart_are_closed)
+{
+    int wrong = 0;
+    const int rounds = (int)MANY(400);
+
+    for (int i = 0; i < rounds; i++) {
+        const int squares = 2 + (int)(next() % 60);
+
+        grow_island(squares);
+        walk_island();
+        straighten(1 + (unsigned)(next() % 4));
+        turn_plane();
+        outline.shake = pow(10, -6 - 6 * uniform());
+        fill();
+        /* what is left of the gaps has no area where the corners belong */
+        wrong += twice_filled() != 2 * squares || !covers_island() ||
+                 faults.crosses || faults.is_bent;
+    }
+    CHECK(wrong == 0, "%d of %d", wrong, rounds);
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/fill", argc, argv);
     RUN(islands_are_covered_once_to_their_walls);
     RUN(sides_of_a_bridge_may_have_other_corners);
+    RUN(bridges_that_rounding_takes_apart_are_closed);
     RUN(letters_keep_area_and_corners_from_any_first_corner);
     RUN(spirals_of_thousands_of_corners_are_filled);
     RUN(corners_that_enclose_nothing_are_dropped);

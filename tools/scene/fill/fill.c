@@ -32,6 +32,8 @@ typedef enum { TOUCHING, INSIDE } strictness_t;
 typedef struct {
     const world_t *world;
     corner_t *corners;
+    plane_point_t *points; /* where they are */
+    size_t count;
     size_t left; /* corners not cut off yet */
     strictness_t strictness;
     world_face_t
@@ -290,46 +292,65 @@ static bool cut_ears(ring_t *ring, uint32_t i)
 
 /* ---- outlines ---- */
 
-/* Make a ring of a fan's corners; false if they enclose nothing. */
+/* Take the corners of a fan; false if they enclose nothing. */
 static bool open_ring(
         ring_t *ring, const world_t *world, world_face_t *fan, size_t count)
 {
     const size_t n = count + 2;
-    plane_point_t *points = cli_alloc(n, sizeof *points);
     uint32_t *vertices = cli_alloc(n, sizeof *vertices);
     bool seen;
 
     ring->world = world;
     ring->corners = cli_alloc(n, sizeof *ring->corners);
-    ring->left = n;
-    ring->strictness = TOUCHING;
+    ring->points = cli_alloc(n, sizeof *ring->points);
+    ring->count = n;
     ring->faces = fan;
-    ring->face_count = 0;
-    for (uint32_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         const world_face_t *face = fan + (i < 2 ? 0 : i - 2);
-        const int k = i < 2 ? (int)i : 2;
-        corner_t *corner = ring->corners + i;
+        const size_t k = i < 2 ? i : 2;
 
-        corner->vertex = vertices[i] = face->vertex[k];
-        corner->normal = face->normal[k];
-        corner->previous = (uint32_t)((i + n - 1) % n);
-        corner->next = (uint32_t)((i + 1) % n);
+        ring->corners[i].vertex = vertices[i] = face->vertex[k];
+        ring->corners[i].normal = face->normal[k];
     }
-    seen = plane_project(points, world, vertices, n);
-    for (size_t i = 0; i < n && seen; i++) {
-        ring->corners[i].at = points[i];
-    }
+    seen = plane_project(ring->points, world, vertices, n);
     free(vertices);
-    free(points);
     return seen;
 }
 
-/* Take out all spikes; return a corner that is left. */
-static uint32_t cut_all_spikes(ring_t *ring)
+static void close_ring(ring_t *ring)
 {
-    uint32_t i = 0;
-    size_t clean = 0; /* corners before i that are none */
+    free(ring->points);
+    free(ring->corners);
+}
 
+/* The nearest multiple of 2^bits; x is 2^61 at most in size, bits below 61. */
+static int64_t snap(int64_t x, unsigned bits)
+{
+    const int64_t size = (int64_t)1 << bits;
+    const int64_t rest = (x % size + size) % size;
+
+    return x - rest + (2 * rest >= size ? size : 0);
+}
+
+/* Join all corners to a ring, on a lattice, and take out spikes; return one
+ * that is left. */
+static uint32_t begin_ring(ring_t *ring, unsigned bits)
+{
+    const size_t n = ring->count;
+    uint32_t i = 0;
+    size_t clean = 0; /* corners before i that are no spikes */
+
+    for (size_t k = 0; k < n; k++) {
+        corner_t *corner = ring->corners + k;
+
+        corner->at.x = snap(ring->points[k].x, bits);
+        corner->at.y = snap(ring->points[k].y, bits);
+        corner->previous = (uint32_t)((k + n - 1) % n);
+        corner->next = (uint32_t)((k + 1) % n);
+    }
+    ring->left = n;
+    ring->strictness = TOUCHING;
+    ring->face_count = 0;
     while (ring->left > 2 && clean < ring->left) {
         if (is_spike(ring, i)) {
             cut_spike(ring, i);
@@ -399,18 +420,30 @@ static bool is_bent(
            BENT * sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
 }
 
-/* Fill the outline of a ring that has an area. */
-static size_t fill_ring(fill_faults_t *faults, ring_t *ring, size_t count)
-{
-    const size_t corners = ring->left;
-    const uint32_t i = cut_all_spikes(ring);
-    const shape_t shape = find_shape(ring, i);
+/* Lattices for corners, as bits of points that are about 2^60 wide: none, and
+ * from 2^-40 of that to 2^-16. On these the sides of a bridge that rounding has
+ * taken apart come together again, where they cross otherwise. */
+static const unsigned lattices[] = {0, 20, 30, 40, 44};
 
-    if (ring->left == corners && shape.convex && shape.once) {
-        return count;
+/* Fill the outline of a ring that has an area. */
+static size_t fill_ring(fill_faults_t *faults, ring_t *ring)
+{
+    for (size_t k = 0; k < sizeof lattices / sizeof *lattices; k++) {
+        const uint32_t i = begin_ring(ring, lattices[k]);
+        const shape_t shape = find_shape(ring, i);
+
+        if (k == 0 && ring->left < 3) {
+            return ring->face_count;
+        }
+        if (k == 0 && ring->left == ring->count && shape.convex && shape.once) {
+            return ring->count - 2; /* the fan */
+        }
+        if (shape.once && !has_crossing(ring, i) && cut_ears(ring, i)) {
+            return ring->face_count;
+        }
     }
-    faults->crosses = ring->left > 2 && (!shape.once || has_crossing(ring, i));
-    faults->crosses = !cut_ears(ring, i) || faults->crosses;
+    faults->crosses = true;
+    (void)cut_ears(ring, begin_ring(ring, 0));
     return ring->face_count;
 }
 
@@ -423,10 +456,8 @@ size_t fill_face(fill_faults_t *faults, const world_t *world, world_face_t *fan,
     if (count < 2) {
         return count;
     }
-    count = open_ring(&ring, world, fan, count)
-                    ? fill_ring(faults, &ring, count)
-                    : 0;
+    count = open_ring(&ring, world, fan, count) ? fill_ring(faults, &ring) : 0;
     faults->is_bent = !faults->crosses && is_bent(world, fan, count);
-    free(ring.corners);
+    close_ring(&ring);
     return count;
 }

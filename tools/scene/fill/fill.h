@@ -26,11 +26,14 @@ typedef struct {
  * twice along a bridge to a hole, repeat corners and come back the way it went.
  * A convex face stays a fan. Every corner of others is one of a triangle, also
  * in the middle of a straight side, but for those that are repeated and those
- * where the outline comes back. One that crosses itself keeps its signed area,
- * but triangles may overlap.
+ * where the outline comes back. If one crosses itself, its corners are tried
+ * on lattices of up to 2^-16 of its width, where what rounding took apart comes
+ * together again; if it still does, it keeps its signed area, but triangles may
+ * overlap.
  *
- * Exact: on corners rounded as plane_project() does it; every triangle faces
- *        forwards and none overlap, unless the outline crosses itself.
+ * Exact: on corners rounded as plane_project() does it, or to such a lattice;
+ *        every triangle faces forwards and none overlap, unless the outline
+ *        crosses itself.
  * Cost:  grows as n^2 for n corners, as n if the face is convex.
  * From:  G. H. Meisters, "Polygons have ears", 1975.
  */
