@@ -158,6 +158,35 @@ static void add_ball_1280(world_t *world)
     add_ball(world, 3);
 }
 
+/* A cube of which four sides are cut where the two others are whole. */
+static void add_joints(world_t *world)
+{
+    static const double outline[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    static const double at[6] = {-1, -0.62, -0.3, 0.1, 0.55, 1};
+
+    for (int i = 0; i < 4; i++) {
+        const double *p = outline[i], *q = outline[(i + 1) % 4];
+
+        for (int j = 0; j < 5; j++) { /* strips across the side */
+            const double s = (at[j] + 1) / 2, t = (at[j + 1] + 1) / 2;
+            const double a[3] = {
+                    p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), -1};
+            const double b[3] = {
+                    p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), -1};
+            const double c[3] = {b[0], b[1], 1}, d[3] = {a[0], a[1], 1};
+
+            add_quad(world, a, b, c, d);
+        }
+    }
+    for (int i = 0; i < 2; i++) {
+        const double z = i == 0 ? -1 : 1;
+        const double a[3] = {-1, -1, z}, b[3] = {1, -1, z}, c[3] = {1, 1, z},
+                     d[3] = {-1, 1, z};
+
+        add_quad(world, a, b, c, d);
+    }
+}
+
 static void add_corner_room(world_t *world)
 {
     static const double outline[] = {
@@ -230,8 +259,9 @@ static void add_spheres(world_t *world)
 const room_t rooms[] = {{"cube", add_cube}, {"tetrahedron", add_tetrahedron},
         {"wedge of 3 degrees", add_wedge}, {"ball of 320 faces", add_ball_320},
         {"ball of 1,280 faces", add_ball_1280},
-        {"L-shaped room", add_corner_room}, {"slabs", add_slabs},
-        {"blocks", add_blocks}, {"glass", add_glass}, {"spheres", add_spheres}};
+        {"cube with T-joints", add_joints}, {"L-shaped room", add_corner_room},
+        {"slabs", add_slabs}, {"blocks", add_blocks}, {"glass", add_glass},
+        {"spheres", add_spheres}};
 const unsigned room_count = sizeof rooms / sizeof *rooms;
 
 /* ---- Turned and shrunk ------------------------------------------------- */

@@ -18,6 +18,7 @@
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
 #include "scene/touch/contacts.h"
+#include "scene/touch/joints.h"
 #include "scene/world/extent.h"
 
 #define PAGE            65536u /* index of a page's first vertex over page */
@@ -340,12 +341,26 @@ static void report_darkness(const model_t *model, const world_t *world)
     }
 }
 
-void compile_scene(
-        model_t *model, const world_t *world, const compile_options_t *options)
+static void report_joints(size_t count)
 {
+    if (count > 0) {
+        fprintf(stderr,
+                "qlux-scene: cut %zu faces at corners of others that lie on "
+                "their edges\n",
+                count);
+    }
+}
+
+void compile_scene(
+        model_t *model, world_t *world, const compile_options_t *options)
+{
+    const size_t cuts = joints_split(world);
     grid_t grid;
     bvh_t bvh;
 
+    if (!options->quiet) {
+        report_joints(cuts);
+    }
     grid_round(&grid, world);
     report_losses(&grid, world);
     report_gain(&grid, gain_faces(&grid, world));

@@ -17,17 +17,18 @@ typedef struct {
     bool quiet;         /* no progress bar */
 } compile_options_t;
 
-/* Compile a scene: round it to its grid, find smooth corners, build the tree,
- * then compile_model(). Reports on stderr the faces that the grid lost.
+/* Compile a scene: split edges at joints, round it to its grid, find smooth
+ * corners, build the tree, then compile_model(). Reports on stderr the faces
+ * that were cut and those that the grid lost.
  *
  *   model    -  out; model_free() it
- *   world    -  the scene
+ *   world    -  the scene; faces are split
  *   options  -  how
  *
  * Fails: exit 2 as compile_model(), or for too many triangles.
  */
 void compile_scene(
-        model_t *model, const world_t *world, const compile_options_t *options);
+        model_t *model, world_t *world, const compile_options_t *options);
 
 /* The last step: all that the blob says of a scene whose tree is built.
  *

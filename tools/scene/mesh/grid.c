@@ -54,8 +54,7 @@ static void extend_by_sphere(extent_t *extent, const world_sphere_t *sphere)
     extent->any = true;
 }
 
-/* Find the scale and the origin from the box of everything. */
-static void fit_box(grid_t *grid, const world_t *world)
+void grid_fit(grid_t *grid, const world_t *world)
 {
     soft_t span = soft_int(0, 0);
     extent_t extent;
@@ -296,7 +295,7 @@ void grid_round(grid_t *grid, const world_t *world)
     for (int k = 0; k < 3; k++) {
         grid->low[k] = UINT16_MAX;
     }
-    fit_box(grid, world);
+    grid_fit(grid, world);
     round_faces(grid, world);
     for (size_t i = 0; i < world->sphere_count; i++) {
         round_sphere(grid, world, (uint32_t)i); /* lines of a text: < 2^32 */

@@ -41,6 +41,13 @@ typedef struct {
     soft_t unit;
 } grid_t;
 
+/* Find the unit and the origin of a grid, from the box of everything.
+ *
+ *   grid   -  out: these two
+ *   world  -  the scene
+ */
+void grid_fit(grid_t *grid, const world_t *world);
+
 /* Put a world on the grid.
  *
  *   grid   -  out; grid_free() it
