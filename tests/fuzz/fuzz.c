@@ -22,6 +22,8 @@ void *__real_realloc(void *old, size_t size);
 void __real_free(void *memory);
 FILE *__real_fopen(const char *path, const char *mode);
 void *__real_cli_read(const char *path, size_t *size);
+void __real_cli_out_open(cli_out_t *out, const char *path);
+void __real_cli_out_commit(cli_out_t *out);
 void __wrap_exit(int code) __attribute__((noreturn));
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
@@ -29,6 +31,8 @@ void *__wrap_realloc(void *old, size_t size);
 void __wrap_free(void *memory);
 FILE *__wrap_fopen(const char *path, const char *mode);
 void *__wrap_cli_read(const char *path, size_t *size);
+void __wrap_cli_out_open(cli_out_t *out, const char *path);
+void __wrap_cli_out_commit(cli_out_t *out);
 
 #if defined(__SANITIZE_ADDRESS__)
 #define HAS_ASAN 1
@@ -275,6 +279,26 @@ void *__wrap_cli_read(const char *path, size_t *size)
     data = cli_alloc(*size + 1, 1);
     memcpy(data, files[i].data, *size);
     return data;
+}
+
+void __wrap_cli_out_open(cli_out_t *out, const char *path)
+{
+    if (!running) {
+        __real_cli_out_open(out, path);
+        return;
+    }
+    *out = (cli_out_t){.file = fuzz_open(), .path = path};
+}
+
+void __wrap_cli_out_commit(cli_out_t *out)
+{
+    size_t size;
+
+    if (!running) {
+        __real_cli_out_commit(out);
+        return;
+    }
+    free(fuzz_close(&size));
 }
 
 /* ---- an input ----------------------------------------------------------- */

@@ -6,8 +6,8 @@
 
 fuzz_src := $(filter-out %_main.c,$(wildcard tests/fuzz/*.c \
     tests/fuzz/formats/*.c))
-fuzz_wrap := $(foreach f,exit malloc calloc realloc free fopen cli_read, \
-    -Wl,--wrap=$f)
+fuzz_wrap := $(foreach f,exit malloc calloc realloc free fopen cli_read \
+    cli_out_open cli_out_commit,-Wl,--wrap=$f)
 
 # With the core $1.
 define fuzz_program

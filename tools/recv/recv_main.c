@@ -604,35 +604,41 @@ static void make_gaps_grey(picture_t *picture)
 
 /* Receive into an output that is open, so that what cannot be written is known
  * before a board has sent for hours. */
+static void run(input_t *in, picture_t *picture, const options_t *o)
+{
+    blocks_t blocks = {0};
+    cli_out_t out;
+
+    cli_out_open(&out, o->to);
+    cli_hold_signals();
+    open_input(in, o->from, o->baud);
+    receive(in, picture, o, &blocks);
+    (void)cli_release_signals(); /* one that came is in->error, or too late */
+    check_picture(picture, in);
+    if (o->partial) {
+        make_gaps_grey(picture);
+    }
+    if (o->show) {
+        show(picture, &blocks);
+        blocks_free(&blocks);
+    }
+    image_write(&picture->image, image_kind(o->to), &out);
+    cli_out_commit(&out);
+    if (o->stats) {
+        print_stats(picture, in);
+    }
+    report_gaps(picture, in);
+    image_free(&picture->image);
+    free(picture->lines);
+}
+
 int main(int argc, char **argv)
 {
     static input_t in;
     static picture_t picture;
-    blocks_t blocks = {0};
     options_t o = {.baud = 115200};
-    cli_out_t out;
 
     options_parse(&program, argc, argv, &o);
-    cli_out_open(&out, o.to);
-    cli_hold_signals();
-    open_input(&in, o.from, o.baud);
-    receive(&in, &picture, &o, &blocks);
-    (void)cli_release_signals(); /* one that came is in.error, or too late */
-    check_picture(&picture, &in);
-    if (o.partial) {
-        make_gaps_grey(&picture);
-    }
-    if (o.show) {
-        show(&picture, &blocks);
-        blocks_free(&blocks);
-    }
-    image_write(&picture.image, image_kind(o.to), &out);
-    cli_out_commit(&out);
-    if (o.stats) {
-        print_stats(&picture, &in);
-    }
-    report_gaps(&picture, &in);
-    image_free(&picture.image);
-    free(picture.lines);
+    run(&in, &picture, &o);
     return CLI_DONE;
 }

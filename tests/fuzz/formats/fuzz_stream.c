@@ -1,7 +1,7 @@
 /* fuzz_stream.c - what a serial port brings, the CRCs of its frames mended */
 /* SPDX-License-Identifier: MIT */
 
-/* The receiver is one file, so it is taken whole, and main() is done here. */
+/* The receiver is one file, so it is taken whole, but for its main(). */
 #define main recv_main
 int recv_main(int argc, char **argv);
 #include "recv/recv_main.c"
@@ -31,8 +31,11 @@ static void mend(uint8_t *data, size_t size)
 void fuzz_stream(const uint8_t *data, size_t size)
 {
     static FILE *file;
+    static char path[32];
     static input_t in;
     static picture_t picture;
+    static const options_t o = {
+            .from = path, .to = "picture.ppm", .partial = true, .quiet = true};
     uint8_t *copy = cli_alloc(size, 1);
 
     if (size > 0) {
@@ -42,19 +45,15 @@ void fuzz_stream(const uint8_t *data, size_t size)
     if (file == NULL) {
         file = tmpfile();
         FUZZ_CHECK(file != NULL);
+        snprintf(path, sizeof path, "/dev/fd/%d", fileno(file));
+    }
+    FUZZ_CHECK(ftruncate(fileno(file), 0) == 0 &&
+               pwrite(fileno(file), copy, size, 0) == (ssize_t)size);
+    free(copy);
+    if (in.fd > 0) { /* that of the last input */
+        (void)close(in.fd);
     }
     memset(&in, 0, sizeof in);
     memset(&picture, 0, sizeof picture);
-    in.path = "stream";
-    in.fd = fileno(file);
-    FUZZ_CHECK(ftruncate(in.fd, 0) == 0 &&
-               pwrite(in.fd, copy, size, 0) == (ssize_t)size &&
-               lseek(in.fd, 0, SEEK_SET) == 0);
-    free(copy);
-    receive(&in, &picture, true);
-    check_picture(&picture, &in);
-    make_gaps_grey(&picture);
-    report_gaps(&picture, &in);
-    image_free(&picture.image);
-    free(picture.lines);
+    run(&in, &picture, &o);
 }
