@@ -10,8 +10,9 @@
  * QL_APP_DIRECT, QL_APP_INDIRECT, QL_APP_LIGHTS: ql_direct_t, ql_indirect_t,
  * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter, or directions.
  * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR: relative error of a pixel, a part of
- * 1, 0 for all samples. QL_APP_INTERLACE: px between lines of the first pass, a
- * power of two. */
+ * 1, 0 for all samples. QL_APP_EXPOSURE: stops brighter than the scene's
+ * exposure. QL_APP_INTERLACE: px between lines of the first pass, a power of
+ * two. */
 #ifndef QL_APP_WIDTH
 #define QL_APP_WIDTH 64
 #endif
@@ -48,6 +49,9 @@
 #ifndef QL_APP_ERROR
 #define QL_APP_ERROR 0
 #endif
+#ifndef QL_APP_EXPOSURE
+#define QL_APP_EXPOSURE 0
+#endif
 #ifndef QL_APP_INTERLACE
 #define QL_APP_INTERLACE 1
 #endif
@@ -74,6 +78,7 @@ int main(void)
                     .lights = QL_APP_LIGHTS,
                     .light_samples = QL_APP_LIGHT_SAMPLES,
                     .roulette = QL_APP_ROULETTE,
+                    .exposure_q8 = QL_EXPOSURE_Q8(QL_APP_EXPOSURE),
                     QL_IF_BUILT(QL_CFG_ADAPTIVE,
                             .error_q16 = QL_ERROR_Q16(QL_APP_ERROR))},
             .interlace = QL_APP_INTERLACE,

@@ -42,10 +42,19 @@ double sim_files_mean_count(const sums_t *sums)
     return sum / ((double)width * (sums->row_end - sums->row_first));
 }
 
+/* As a display shows it. */
+static develop_t display_of(const render_options_t *o)
+{
+    const develop_t how = {.kind = o->kind,
+            .format = o->format,
+            .exposure_q8 = o->settings.exposure_q8};
+
+    return how;
+}
+
 static void write_picture(sim_files_t *files, const sums_t *sums)
 {
-    const render_options_t *o = files->options;
-    const develop_t how = {.kind = o->kind, .format = o->format};
+    const develop_t how = display_of(files->options);
 
     develop_write(sums, &how, &files->picture);
     cli_out_commit(&files->picture);
@@ -75,6 +84,7 @@ static void write_map(sim_files_t *files, const sums_t *sums)
 /* In the terminal. */
 static void show(sim_files_t *files, const sums_t *sums)
 {
+    const develop_t how = display_of(files->options);
     image_t line;
 
     if (!files->options->show) {
@@ -86,8 +96,7 @@ static void show(sim_files_t *files, const sums_t *sums)
     }
     image_new_bytes(&line, sums->field[SUMS_WIDTH], 1);
     for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
-        develop_row(
-                &line, sums, sums_pixels(sums, y), y, files->options->format);
+        develop_row(&line, sums, sums_pixels(sums, y), y, &how);
         blocks_row(&files->blocks, y, line.bytes);
     }
     blocks_draw(&files->blocks, stderr);

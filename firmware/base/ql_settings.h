@@ -53,6 +53,7 @@ typedef struct {
     uint8_t lights;        /* ql_light_choice_t */
     uint8_t light_samples; /* of each emitter asked, or directions; 1..255 */
     uint8_t roulette;      /* 0 or 1: Russian roulette */
+    int16_t exposure_q8;   /* stops, s7.8, brighter than the scene's exposure */
     /* u0.16: a pixel stops at this standard error, a part of its mean; 0: it
      * takes all its samples */
     QL_IF_BUILT(QL_CFG_ADAPTIVE, uint16_t error_q16;)
@@ -96,6 +97,11 @@ typedef struct {
  *   part  -  0, or from 0.00001 to 0.9999 */
 #define QL_ERROR_Q16(part) ((uint16_t)((part)*65536 + 0.5))
 
+/* exposure_q8 of stops, rounded, likewise.
+ *   stops  -  -64 to 64 */
+#define QL_EXPOSURE_Q8(stops)                                                  \
+    ((int16_t)((stops)*256 + ((stops) < 0 ? -0.5 : 0.5)))
+
 /* The scene's size, 16 samples, seed 0, Sobol points and 4 bounces, or what
  * there is of them in the build, one light by area and power, the BRDF; in the
  * order of the struct, as C++ wants it. */
@@ -103,7 +109,7 @@ typedef struct {
     {                                                                          \
         0, 0, 16, 0, QL_CFG_INDIRECT ? 4 : 0,                                  \
                 QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM,    \
-                QL_DIRECT_AREA, QL_INDIRECT_BRDF, QL_LIGHTS_POWER, 1, 0,       \
+                QL_DIRECT_AREA, QL_INDIRECT_BRDF, QL_LIGHTS_POWER, 1, 0, 0,    \
                 QL_IF_BUILT(QL_CFG_ADAPTIVE, 0)                                \
     }
 

@@ -99,7 +99,7 @@ void ql_film_display(const ql_sum_t *sum, uint32_t samples, ql_real_t exposure,
     }
 }
 
-ql_real_t ql_film_exposure(int16_t radiance_exp, int16_t exposure_q8)
+ql_real_t ql_film_exposure(int16_t radiance_exp, int32_t exposure_q8)
 {
     /* 2^(1/2), 2^(1/4), ... 2^(1/256), u1.31 */
     static const uint32_t root[8] = {0xb504f334u, 0x9837f052u, 0x8b95c1e4u,

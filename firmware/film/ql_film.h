@@ -57,8 +57,8 @@ void ql_film_add(ql_sum_t *sum, const ql_uq31_t value[3], ql_real_t scale,
 void ql_film_display(const ql_sum_t *sum, uint32_t samples, ql_real_t exposure,
         ql_uq16_t linear[3]);
 
-/* 2^(radiance_exp + exposure_q8 / 256) as a real. */
-ql_real_t ql_film_exposure(int16_t radiance_exp, int16_t exposure_q8);
+/* 2^(radiance_exp + exposure_q8 / 256) as a real; exposure_q8 within 2^16. */
+ql_real_t ql_film_exposure(int16_t radiance_exp, int32_t exposure_q8);
 
 QL_C_END
 

@@ -59,7 +59,8 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
     render->diag = (ql_diag_t){0};
     render->exposure = ql_film_exposure(
             ql_i16(QL_LE16((uint16_t)scene->header->radiance_exp)),
-            ql_i16(QL_LE16((uint16_t)scene->header->exposure_q8)));
+            (int32_t)ql_i16(QL_LE16((uint16_t)scene->header->exposure_q8)) +
+                    s.exposure_q8);
     return QL_OK;
 }
 

@@ -72,6 +72,12 @@ expect threads_0_are_refused 1 'from 1 to 1024' \
     "$sim" scene.qlb -o a.ppm --threads 0
 expect a_format_without_display_picture_is_refused 1 "'--format' needs" \
     "$sim" scene.qlb -o a.pfm --format gray4
+expect linear_radiance_has_no_exposure 1 "'--exposure' needs" \
+    "$sim" scene.qlb -o a.pfm --exposure 1
+for stops in 64.1 -65 x ''; do
+    expect "exposure_'$stops'_is_refused" 1 'from -64 to 64\|needs a value' \
+        "$sim" scene.qlb -o a.ppm --exposure "$stops"
+done
 nothing_left wrong_usage_leaves_nothing
 
 # Input
@@ -299,6 +305,21 @@ same sums_of_sums_merge_in_any_order t1.qls again.qls
 "$merge" t1.qls -o gray.png --format gray4
 "$sim" scene.qlb -o gray2.png --format gray4 $small
 same merge_and_sim_agree_on_display_formats gray.png gray2.png
+# Stops of the scene and stops of the picture add up.
+sed 's/^exposure .*/exposure -0.25/' "$root/tests/scenes/cornell.scene" \
+    >darker.scene && cp "$root/tests/scenes/cornell.obj" \
+    "$root/tests/scenes/cornell.mtl" . 2>/dev/null
+"$build/qlux-scene" darker.scene -o darker.qlb --quiet >out.txt &&
+    "$sim" scene.qlb -o plain.ppm --save-sums plain.qls $small &&
+    "$sim" darker.qlb -o brighter.ppm $small --exposure 1.25
+same stops_add_up_to_those_of_the_scene plain.ppm brighter.ppm
+"$sim" scene.qlb -o darker.ppm --save-sums darker.qls $small --exposure -3.3
+same exposure_changes_no_sum plain.qls darker.qls
+"$merge" plain.qls -o darker2.ppm --exposure -3.3 --quiet
+same merge_and_sim_agree_on_exposures darker.ppm darker2.ppm
+! cmp -s plain.ppm darker.ppm
+say exposure_changes_the_picture $?
+rm -f darker* plain.* brighter.ppm cornell.obj cornell.mtl
 
 "$sim" scene.qlb -o rows.ppm $small --rows 5:6
 head=$(($(wc -c <whole.ppm) - 20 * 14 * 3))

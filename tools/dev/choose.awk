@@ -79,6 +79,12 @@ function check_part(name, text)
         wrong(name, "0, or a part from 0.00001 to 0.9999")
 }
 
+function check_stops(name, text)
+{
+    if (text !~ /^[-+]?[0-9]*\.?[0-9]+$/ || text + 0 < -64 || text + 0 > 64)
+        wrong(name, "stops from -64 to 64")
+}
+
 function check_power(name, text,    n)
 {
     for (n = 1; n < text + 0; n *= 2) {
@@ -102,6 +108,8 @@ function check(name,    text, values, wh)
             wrong(name, "WIDTHxHEIGHT, each from 1 to 16384")
     } else if (values == "part")
         check_part(name, text)
+    else if (values == "stops")
+        check_stops(name, text)
     else if (values == "power")
         check_power(name, text)
     else if (values ~ /\.\./) {

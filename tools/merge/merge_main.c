@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -20,6 +21,7 @@ typedef struct {
     const char *picture;
     const char *save;
     ql_format_t format;
+    double exposure;
     bool quiet;
     option_list_t parts;
 } options_t;
@@ -37,6 +39,8 @@ static const option_t merging[] = {
                 .help = "the sum of the parts, itself a part (.qls)"},
         {"--format F", OPTION_WORD, AT(format), .words = develop_formats,
                 .help = "of the display, widened to 8-bit RGB"},
+        {"--exposure S", OPTION_REAL, AT(exposure), .min = -64, .max = 64,
+                .help = "stops brighter than the scene's own exposure"},
         {"--quiet", OPTION_FLAG, AT(quiet),
                 .help = "do not warn of missing rows or samples"},
         OPTION_END};
@@ -60,9 +64,10 @@ static void check_options(const options_t *o)
     if (o->picture == NULL && o->save == NULL) {
         options_fail("missing -o FILE or --save-sums FILE");
     }
-    if (options_given("--format") &&
+    if ((options_given("--format") || options_given("--exposure")) &&
             (o->picture == NULL || image_kind(o->picture) == IMAGE_PFM)) {
-        options_fail("'--format' needs '-o' with a .ppm or .png name");
+        options_fail("'%s' needs '-o' with a .ppm or .png name",
+                options_given("--format") ? "--format" : "--exposure");
     }
 }
 
@@ -362,6 +367,7 @@ int main(int argc, char **argv)
     if (o.picture != NULL) {
         how.kind = image_kind(o.picture);
         how.format = o.format;
+        how.exposure_q8 = (int16_t)lround(o.exposure * 256); /* < 2^15 */
         cli_out_open(&picture, o.picture);
         develop_write(&m.whole, &how, &picture);
     }

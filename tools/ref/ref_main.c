@@ -139,7 +139,8 @@ static void write_display(const job_t *job, cli_out_t *out)
     const sums_range_t range = {
             o->rows.first, o->rows.end, o->samples.first, o->samples.end};
     rounded_t rounded = {job, cli_alloc(o->settings.width, sizeof(ql_sum_t))};
-    const develop_t how = {o->kind, o->format, round_row, &rounded};
+    const develop_t how = {
+            o->kind, o->format, o->settings.exposure_q8, round_row, &rounded};
     sums_t sums;
 
     memset(&sums, 0, sizeof sums);

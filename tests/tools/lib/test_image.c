@@ -397,6 +397,7 @@ static float linear_of_unit(uint64_t sum, uint32_t count, int32_t exponent)
     const sums_range_t range = {0, 1, 0, count};
     image_t line;
     sums_t sums;
+    const develop_t linear = {.kind = IMAGE_PFM};
     float value;
 
     memset(&sums, 0, sizeof sums);
@@ -406,7 +407,7 @@ static float linear_of_unit(uint64_t sum, uint32_t count, int32_t exponent)
     sums_settle_one(&sums, &range);
     sums.pixels[0].rgb[0] = sum;
     image_new_floats(&line, 1, 1);
-    develop_row(&line, &sums, sums.pixels, 0, QL_FORMAT_RGB888);
+    develop_row(&line, &sums, sums.pixels, 0, &linear);
     value = line.floats[0];
     image_free(&line);
     sums_free(&sums);

@@ -55,13 +55,15 @@ static bool lines_agree(
 {
     uint8_t wanted[BYTES_MAX] = {0}, got[BYTES_MAX] = {0};
     const ql_output_t output = {format, wanted};
+    const develop_t how = {
+            .format = format, .exposure_q8 = render->settings.exposure_q8};
     image_t line;
     bool ok = true;
 
     image_new_bytes(&line, WIDTH, 1);
     for (uint16_t y = 0; y < HEIGHT; y++) {
         ql_render_line(render, y, &output, 1);
-        develop_row(&line, sums, sums_pixels(sums, y), y, format);
+        develop_row(&line, sums, sums_pixels(sums, y), y, &how);
         narrow(got, format, line.bytes);
         ok = ok && memcmp(got, wanted, QL_LINE_BYTES(WIDTH, format)) == 0;
     }
@@ -105,6 +107,7 @@ static void compare(const ql_scene_t *scene, uint32_t spp, uint16_t error_q16)
     settings.width = WIDTH;
     settings.height = HEIGHT;
     settings.spp = spp;
+    settings.exposure_q8 = -333;
 #if QL_CFG_ADAPTIVE
     settings.error_q16 = error_q16;
 #endif
@@ -176,6 +179,7 @@ static void compare_steps(const ql_scene_t *scene)
 static void compare_ties(void)
 {
     const sums_range_t one = {0, 1, 0, 1};
+    const develop_t linear = {.kind = IMAGE_PFM};
     image_t line;
     sums_t sums;
 
@@ -187,7 +191,7 @@ static void compare_ties(void)
     sums.pixels[0].rgb[1] = (1u << 24) + 3;
     sums.pixels[0].rgb[2] = (1ull << 32) + (1u << 8) + 1;
     image_new_floats(&line, 1, 1);
-    develop_row(&line, &sums, sums.pixels, 0, QL_FORMAT_RGB888);
+    develop_row(&line, &sums, sums.pixels, 0, &linear);
     check(line.floats[0] == 1 && line.floats[1] == 1 + 0x1p-22f &&
                     line.floats[2] == 256 + 0x1p-15f,
             "means_are_rounded_to_the_nearest_float", "ties_to_even");

@@ -54,12 +54,14 @@ static void develop_linear(
 }
 
 static void develop_display(uint8_t *out, const sums_t *sums,
-        const ql_sum_t *pixels, uint32_t y, ql_format_t format)
+        const ql_sum_t *pixels, uint32_t y, const develop_t *how)
 {
+    const ql_format_t format = how->format;
     const uint32_t width = sums->field[SUMS_WIDTH];
     const ql_real_t exposure =
             ql_film_exposure((int16_t)sums_field_value(sums, SUMS_RADIANCE_EXP),
-                    (int16_t)sums_field_value(sums, SUMS_EXPOSURE_Q8));
+                    (int32_t)sums_field_value(sums, SUMS_EXPOSURE_Q8) +
+                            how->exposure_q8);
     uint8_t *line = cli_alloc(QL_LINE_BYTES((size_t)width, format), 1);
 
     for (uint32_t x = 0; x < width; x++) {
@@ -72,7 +74,7 @@ static void develop_display(uint8_t *out, const sums_t *sums,
 }
 
 void develop_row(image_t *line, const sums_t *sums, const ql_sum_t *pixels,
-        uint32_t y, ql_format_t format)
+        uint32_t y, const develop_t *how)
 {
     const size_t n = 3 * (size_t)line->width;
 
@@ -85,7 +87,7 @@ void develop_row(image_t *line, const sums_t *sums, const ql_sum_t *pixels,
     } else if (line->floats != NULL) {
         develop_linear(line->floats, sums, pixels, y);
     } else {
-        develop_display(line->bytes, sums, pixels, y, format);
+        develop_display(line->bytes, sums, pixels, y, how);
     }
 }
 
@@ -110,7 +112,7 @@ void develop_write(const sums_t *sums, const develop_t *how, cli_out_t *out)
             pixels = how->row != NULL ? how->row(how->from, y)
                                       : sums_pixels(sums, y);
         }
-        develop_row(&line, sums, pixels, y, how->format);
+        develop_row(&line, sums, pixels, y, how);
         image_row(&writer, &line);
     }
     image_end(&writer);

@@ -13,11 +13,13 @@ extern const char *const develop_formats[QL_FORMAT_COUNT + 1];
 
 /* How a picture is made, and where its sums come from. */
 typedef struct {
-    image_kind_t kind;  /* IMAGE_PFM: linear radiance in the units of Ke, the
+    image_kind_t kind;   /* IMAGE_PFM: linear radiance in the units of Ke, the
                            mean rounded once to the nearest float, without
                            exposure. Others: the bits of ql_render_line() in
                            the format, widened by widen_line() */
-    ql_format_t format; /* of the display */
+    ql_format_t format;  /* of the display */
+    int16_t exposure_q8; /* stops, s7.8, brighter than the scene's exposure; not
+                           of IMAGE_PFM */
     const ql_sum_t *(*row)(void *from, uint32_t y); /* width pixels, good until
                            it is called again; NULL: those in memory */
     void *from;
@@ -36,6 +38,6 @@ void develop_write(const sums_t *sums, const develop_t *how, cli_out_t *out);
  *   pixels  -  of row y; not used if it is without samples
  */
 void develop_row(image_t *line, const sums_t *sums, const ql_sum_t *pixels,
-        uint32_t y, ql_format_t format);
+        uint32_t y, const develop_t *how);
 
 #endif

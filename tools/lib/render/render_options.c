@@ -3,6 +3,7 @@
 
 #include "lib/render/render_options.h"
 
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -59,6 +60,8 @@ const option_t render_options_settings[] = {
                         "cosine"},
         {"--roulette", OPTION_FLAG, AT(roulette),
                 .help = "end paths at random, by their throughput"},
+        {"--exposure S", OPTION_REAL, AT(exposure), .min = -64, .max = 64,
+                .help = "stops brighter than the scene's own exposure"},
         OPTION_END};
 
 const option_t render_options_error[] = {
@@ -225,13 +228,15 @@ void render_options_parse(
     if (o->picture != NULL) {
         o->kind = image_kind(o->picture);
     }
-    if (options_given("--format") &&
+    if ((options_given("--format") || options_given("--exposure")) &&
             (o->picture == NULL || o->kind == IMAGE_PFM)) {
-        options_fail("'--format' needs '-o' with a .ppm or .png name");
+        options_fail("'%s' needs '-o' with a .ppm or .png name",
+                options_given("--format") ? "--format" : "--exposure");
     }
     o->settings.width = (uint16_t)o->size.width; /* at most QL_IMAGE_MAX */
     o->settings.height = (uint16_t)o->size.height;
     o->settings.roulette = o->roulette;
+    o->settings.exposure_q8 = (int16_t)lround(o->exposure * 256); /* < 2^15 */
     if (o->progressive &&
             (o->picture == NULL || strcmp(o->picture, "-") == 0)) {
         options_fail("'--progressive' needs '-o' with a name");

@@ -28,6 +28,7 @@ typedef struct {
     /* As they were given; render_options_parse() puts them into settings. */
     option_size_t size;
     double error;
+    double exposure;
     bool roulette;
 } render_options_t;
 
