@@ -59,15 +59,19 @@ void fuzz_draw(const ql_scene_t *scene)
     draw_adaptive(scene);
 }
 
-static void compile(const world_t *world, unsigned node_bits)
+static void compile(unsigned node_bits)
 {
     const compile_options_t how = {node_bits, 4, true};
     ql_scene_t scene;
+    world_t world;
     model_t model;
     uint8_t *blob;
     size_t size;
+    text_t text;
 
-    compile_scene(&model, world, &how);
+    text_open(&text, "s.scene");
+    read_scene(&world, &text);
+    compile_scene(&model, &world, &how);
     blob = write_blob(&model, &size);
     open_blob_bytes(&scene, blob, size, "s.qlb");
     if (node_bits == 16) {
@@ -75,17 +79,12 @@ static void compile(const world_t *world, unsigned node_bits)
     }
     free(blob);
     model_free(&model);
+    world_free(&world);
+    text_close(&text);
 }
 
 void fuzz_compile(void)
 {
-    world_t world;
-    text_t text;
-
-    text_open(&text, "s.scene");
-    read_scene(&world, &text);
-    compile(&world, 16);
-    compile(&world, 8);
-    world_free(&world);
-    text_close(&text);
+    compile(16);
+    compile(8);
 }
