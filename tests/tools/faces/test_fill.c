@@ -656,6 +656,78 @@ TEST(bridges_that_rounding_takes_apart_are_closed)
     CHECK(wrong == 0, "%d of %d", wrong, rounds);
 }
 
+static double round_to(double x, double step)
+{
+    return step * floor(x / step + 0.5);
+}
+
+/* The smallest height of a triangle. */
+static double find_thinnest(const world_t *world)
+{
+    double least = INFINITY;
+
+    for (size_t i = 0; i < triangles; i++) {
+        double sum[3] = {0, 0, 0}, longest = 0;
+        const double area = add_cross(sum, world, fan + i);
+
+        for (int a = 0; a < 3; a++) {
+            const double *p = world->vertices[fan[i].vertex[a]];
+            const double *q = world->vertices[fan[i].vertex[(a + 1) % 3]];
+            double square = 0;
+
+            for (int k = 0; k < 3; k++) {
+                square += (p[k] - q[k]) * (p[k] - q[k]);
+            }
+            longest = fmax(longest, sqrt(square));
+        }
+        least = fmin(least, area / longest);
+    }
+    return least;
+}
+
+/* A square, tilted, with corners along its sides that six digits have moved. */
+TEST(corners_nearly_in_a_side_make_no_thin_triangles)
+{
+    double least = INFINITY;
+    int wrong = 0;
+
+    for (int round = 0; round < (int)MANY(100); round++) {
+        const uint32_t a_side = 2 + (uint32_t)(next() % 10);
+        uint32_t n = 0;
+        const double slope = uniform();
+        world_t world;
+
+        open_world(&world);
+        for (uint32_t i = 0; i < 4 * a_side; i++) {
+            static const double at[5][2] = {
+                    {0, 0}, {1, 0.2}, {0.8, 1.2}, {-0.2, 1}, {0, 0}};
+            const uint32_t side = i / a_side;
+            const double t = (double)(i % a_side) / a_side;
+            const double x = at[side][0] * (1 - t) + at[side + 1][0] * t;
+            const double y = at[side][1] * (1 - t) + at[side + 1][1] * t;
+            const double p[3] = {round_to(x, 1e-6), round_to(y, 1e-6),
+                    round_to(slope * x - 0.4 * y, 1e-6)};
+
+            if (i % a_side == 0 || next() % 4 == 0) {
+                (void)world_add_vertex(&world, p);
+                n++;
+            }
+        }
+        for (uint32_t i = 0; i < n - 2; i++) {
+            const world_face_t face = {{0, i + 1, i + 2}, 0, {0, 0, 0}, 0};
+
+            fan[i] = face;
+        }
+        triangles = fill_face(&faults, &world, fan, n - 2);
+        wrong += triangles != n - 2 || faults.crosses || faults.is_bent;
+        least = fmin(least, find_thinnest(&world));
+        world_free(&world);
+    }
+    CHECK(wrong == 0, "%d", wrong);
+    CHECK(least > 1e-3, "%g", least);
+    NOTE("%.4f wide at least", least);
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/fill", argc, argv);
@@ -669,5 +741,6 @@ int main(int argc, char **argv)
     RUN(outlines_that_go_around_twice_or_not_at_all_cross_themselves);
     RUN(squares_bent_by_more_than_20_degrees_are_told);
     RUN(real_outlines_far_away_keep_their_area);
+    RUN(corners_nearly_in_a_side_make_no_thin_triangles);
     return TEST_END();
 }

@@ -2,8 +2,8 @@
 /* SPDX-License-Identifier: MIT */
 
 /* Ears are cut off: corners whose neighbours can see each other. A corner that
- * is none becomes one only if a neighbour is cut off, so that each corner is
- * looked at three times, each time with all others. */
+ * is none becomes one only if a neighbour is cut off, so each is looked at
+ * three times, with all others, and again if that is done less strictly. */
 
 #include "scene/fill/fill.h"
 
@@ -25,9 +25,11 @@ typedef struct {
     bool is_ear;
 } corner_t;
 
-/* What corners keep another from being an ear: those inside its triangle and on
- * its sides, or the former only. */
-typedef enum { TOUCHING, INSIDE } strictness_t;
+/* What keeps a corner from being an ear: that it is thin, and corners inside
+ * its triangle or on its sides; the latter; only those inside. A thin ear is
+ * what rounding leaves of a corner in a side. The grid would drop it, and then
+ * only the neighbour of the face had that corner. */
+typedef enum { THIN, TOUCHING, INSIDE } strictness_t;
 
 typedef struct {
     const world_t *world;
@@ -173,13 +175,28 @@ static bool is_beside(const corner_t *corner, const corner_t *a,
 static bool is_within(const ring_t *ring, const corner_t *corner,
         const corner_t *a, const corner_t *b, const corner_t *c)
 {
-    const int least = ring->strictness == TOUCHING ? 0 : 1;
+    const int least = ring->strictness == INSIDE ? 1 : 0;
 
     return !is_beside(corner, a, b, c) &&
            plane_side(&a->at, &b->at, &corner->at) >= least &&
            plane_side(&b->at, &c->at, &corner->at) >= least &&
            plane_side(&c->at, &a->at, &corner->at) >= least &&
            !is_at(corner, a) && !is_at(corner, b) && !is_at(corner, c);
+}
+
+/* Is a corner less than about 2^-16 of the width of the face above the line
+ * between its neighbours? Coordinates are cut to 2^28, so that products of
+ * their differences are below 2^58. */
+static bool is_thin(const corner_t *a, const corner_t *b, const corner_t *c)
+{
+    const int64_t cut = (int64_t)1 << 33;
+    const int64_t x = c->at.x / cut - a->at.x / cut;
+    const int64_t y = c->at.y / cut - a->at.y / cut;
+    const int64_t size = (x < 0 ? -x : x) + (y < 0 ? -y : y);
+    const int64_t area = (b->at.x / cut - a->at.x / cut) * y -
+                         (b->at.y / cut - a->at.y / cut) * x;
+
+    return area <= size << 12;
 }
 
 /* Can the neighbours of a corner see each other? Where corners are inside its
@@ -189,7 +206,7 @@ static bool find_ear(const ring_t *ring, const corner_t *b)
 {
     const corner_t *a = previous(ring, b), *c = next(ring, b);
 
-    if (!b->bulges) {
+    if (!b->bulges || (ring->strictness == THIN && is_thin(a, b, c))) {
         return false;
     }
     for (const corner_t *p = next(ring, c); p != a; p = next(ring, p)) {
@@ -274,8 +291,8 @@ static bool cut_ears(ring_t *ring, uint32_t i)
             idle = 0;
         } else if (++idle < ring->left) {
             i = ring->corners[i].next;
-        } else if (ring->strictness == TOUCHING) {
-            ring->strictness = INSIDE;
+        } else if (ring->strictness != INSIDE) {
+            ring->strictness++;
             look_at_all(ring, i);
             idle = 0;
         } else {
@@ -349,7 +366,7 @@ static uint32_t begin_ring(ring_t *ring, unsigned bits)
         corner->next = (uint32_t)((k + 1) % n);
     }
     ring->left = n;
-    ring->strictness = TOUCHING;
+    ring->strictness = THIN;
     ring->face_count = 0;
     while (ring->left > 2 && clean < ring->left) {
         if (is_spike(ring, i)) {
@@ -371,7 +388,8 @@ static bool points_up(const corner_t *from, const corner_t *to)
            (to->at.y == from->at.y && to->at.x > from->at.x);
 }
 
-/* Does the outline go around once, and do all corners bulge? */
+/* Does the outline go around once, and do all corners bulge by more than a
+ * little? */
 typedef struct {
     bool once, convex;
 } shape_t;
@@ -389,7 +407,9 @@ static shape_t find_shape(const ring_t *ring, uint32_t i)
         if (points_up(previous(ring, corner), corner) != up) {
             rounds += side > 0 && up ? 1 : side < 0 && !up ? -1 : 0;
         }
-        shape.convex = shape.convex && side > 0;
+        shape.convex =
+                shape.convex && side > 0 &&
+                !is_thin(previous(ring, corner), corner, next(ring, corner));
     }
     shape.once = rounds == 1;
     return shape;
