@@ -10,6 +10,7 @@
 #include "lib/render/render_options.h"
 #include "lib/render/rows.h"
 #include "sim/sim_files.h"
+#include "sim/sim_judge.h"
 #include "sim/sim_render.h"
 
 #if QL_CFG_PRECISION == 0
@@ -102,6 +103,9 @@ static void run(render_options_t *o, const ql_render_t *render)
     }
     sim_files_write(&files, &sums);
     (void)cli_release_signals();
+    if (o->picture != NULL && o->kind != IMAGE_PFM) {
+        sim_judge(&sums, o->settings.exposure_q8);
+    }
     if (stats.saturated > 0 && !o->stats) {
         cli_warn("%" PRIu64 " contributions were cut at their limit",
                 stats.saturated);

@@ -321,6 +321,26 @@ same merge_and_sim_agree_on_exposures darker.ppm darker2.ppm
 say exposure_changes_the_picture $?
 rm -f darker* plain.* brighter.ppm cornell.obj cornell.mtl
 
+# A picture that shows nothing says which exposure would.
+"$sim" scene.qlb -o a.ppm $small 2>err.txt && [ ! -s err.txt ]
+say a_picture_that_shows_something_needs_no_word $?
+for stops in -18 18; do
+    shade=$([ $stops -lt 0 ] && echo black || echo white)
+    "$sim" scene.qlb -o a.ppm $small --exposure $stops 2>err.txt
+    would=$(sed -n "s/^qlux-sim: warning: the picture is $shade; $(
+        )--exposure \(.*\) would do$/\1/p" err.txt)
+    "$sim" scene.qlb -o a.ppm $small --exposure "$would" 2>err.txt &&
+        [ ! -s err.txt ]
+    say "a_picture_all_${shade}_says_which_exposure_would_do" $? "$would"
+done
+sed 's/^Ke .*/Ke 0 0 0/' "$root/tests/scenes/cornell.mtl" >cornell.mtl &&
+    cp "$root/tests/scenes/cornell.obj" "$root/tests/scenes/cornell.scene" . &&
+    "$build/qlux-scene" cornell.scene -o dark.qlb --quiet >out.txt 2>&1 &&
+    "$sim" dark.qlb -o a.ppm $small 2>err.txt && [ "$(cat err.txt)" = \
+    'qlux-sim: warning: the picture is black: no light reaches the camera' ]
+say a_picture_without_light_says_so $?
+rm -f cornell.* dark.qlb a.ppm
+
 "$sim" scene.qlb -o rows.ppm $small --rows 5:6
 head=$(($(wc -c <whole.ppm) - 20 * 14 * 3))
 tail -c +$((head + 1 + 300)) whole.ppm | head -c 60 >a.txt
@@ -371,12 +391,12 @@ say a_failed_merge_leaves_nothing $?
 # they have an effect are silent.
 dot="scene.qlb --size 6x6 --spp 2 --seed 3 --quiet"
 while IFS='|' read -r where idle; do
-    "$sim" $dot $where -o without.ppm
-    "$sim" $dot $where $idle -o with.ppm 2>err.txt
-    cmp -s without.ppm with.ppm && [ "$(wc -l <err.txt)" -eq 1 ] &&
+    "$sim" $dot $where -o without.pfm
+    "$sim" $dot $where $idle -o with.pfm 2>err.txt
+    cmp -s without.pfm with.pfm && [ "$(wc -l <err.txt)" -eq 1 ] &&
         grep -q -- "warning: '$idle' has no effect with '$where'" err.txt ||
         echo "$idle $where: $(cat err.txt)"
-    "$sim" $dot $idle -o with.ppm >err.txt 2>&1
+    "$sim" $dot $idle -o with.pfm >err.txt 2>&1
     [ ! -s err.txt ] || echo "$idle alone: $(cat err.txt)"
 done >idle.txt <<'END'
 --direct hemisphere|--lights all
@@ -390,9 +410,9 @@ done >idle.txt <<'END'
 END
 [ ! -s idle.txt ]
 say settings_without_effect_say_so $? "$(head -n 1 idle.txt)"
-"$sim" $dot --direct cosine -o without.ppm &&
-    "$sim" $dot --direct cosine --light-samples 2 -o with.ppm >err.txt 2>&1
-! cmp -s without.ppm with.ppm && [ ! -s err.txt ]
+"$sim" $dot --direct cosine -o without.pfm &&
+    "$sim" $dot --direct cosine --light-samples 2 -o with.pfm >err.txt 2>&1
+! cmp -s without.pfm with.pfm && [ ! -s err.txt ]
 say n_directions_have_an_effect $?
 
 # Numbers
@@ -408,7 +428,7 @@ sed 's/^\(l .*\) -33 /\1 -10 /' square.txt >cut.txt
 one="--size 4x4 --spp 1 --bounces 0 --direct area --quiet"
 # stats SCENE PROGRAM PRECISION SATURATED: every line
 stats() {
-    "$build/$2" "$1" -o n.ppm $one --stats >stats.txt 2>err.txt
+    "$build/$2" "$1" -o n.pfm $one --stats >stats.txt 2>err.txt
     sed 's/^seconds: [0-9]*\.[0-9][0-9][0-9]$/seconds: S/' stats.txt >out.txt
     { printf '%s\n' 'paths: 16' 'closest-rays: 16' 'shadow-rays: 16' \
         'rays-per-path: 2.000'
@@ -422,11 +442,11 @@ stats square.qlb qlux-sim-draft draft 0
 stats square.qlb qlux-ref double ''
 stats cut.qlb qlux-sim fine 48
 stats cut.qlb qlux-sim-draft draft 48
-"$sim" cut.qlb -o n.ppm $one >out.txt 2>err.txt
+"$sim" cut.qlb -o n.pfm $one >out.txt 2>err.txt
 [ $? -eq 0 ] && [ ! -s out.txt ] && [ "$(cat err.txt)" = \
     'qlux-sim: warning: 48 contributions were cut at their limit' ]
 say contributions_that_are_cut_are_a_warning $?
-"$sim" square.qlb -o n.ppm $one >out.txt 2>err.txt
+"$sim" square.qlb -o n.pfm $one >out.txt 2>err.txt
 [ $? -eq 0 ] && [ ! -s out.txt ] && [ ! -s err.txt ]
 say without_them_nothing_is_said $?
 # In a closed room of white walls every path has all of its rays.
