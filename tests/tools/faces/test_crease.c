@@ -23,7 +23,7 @@ static void begin(double smooth)
 static void add_face(
         const double a[3], const double b[3], const double c[3], uint32_t group)
 {
-    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}, group};
+    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}, group, false};
 
     /* vertices of their own: places are what counts */
     face.vertex[0] = (uint32_t)world_add_vertex(&world, a);
@@ -351,6 +351,39 @@ TEST(what_has_no_size_or_too_many_neighbours_stays_flat)
     world_free(&world);
 }
 
+/* A roof of twice 10 degrees with a thin triangle of rounding at its top, whose
+ * own normal is anything. */
+TEST(thin_triangles_make_no_crease)
+{
+    const double c = cos(10 * PI / 180), s = sin(10 * PI / 180);
+    static const double a[3] = {0, 0, 0}, b[3] = {1e-9, 0.5, 5e-9};
+    static const double d[3] = {0, 1, 0};
+    const double left[3] = {-c, 0.5, -s}, right[3] = {c, 0.5, -s};
+    const double up[3] = {0, 0, 1};
+
+    begin(40);
+    add_face(left, a, d, 0);
+    add_face(a, b, d, 0);
+    world.faces[1].goes_on = true;
+    add_face(right, b, a, 0);
+    add_face(right, d, b, 0);
+    world.faces[3].goes_on = true;
+    crease_world(&world);
+    CHECK(cosine_to(0, 1, up) > 0.995, "at a: %g", cosine_to(0, 1, up));
+    CHECK(cosine_to(0, 2, up) > 0.995, "at d: %g", cosine_to(0, 2, up));
+    world_free(&world);
+}
+
+TEST(a_bent_face_has_no_crease_inside)
+{
+    static const uint32_t none[2] = {0, 0};
+
+    begin_strip(20, 30, none);
+    world.faces[1].goes_on = world.faces[2].goes_on = true;
+    world.faces[3].goes_on = true;
+    CHECK(is_strip_smooth(), "at the bend");
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/crease", argc, argv);
@@ -362,5 +395,7 @@ int main(int argc, char **argv)
     RUN(normals_of_the_file_stay_as_they_are);
     RUN(meshes_of_both_sides_are_smooth_on_both);
     RUN(what_has_no_size_or_too_many_neighbours_stays_flat);
+    RUN(thin_triangles_make_no_crease);
+    RUN(a_bent_face_has_no_crease_inside);
     return TEST_END();
 }

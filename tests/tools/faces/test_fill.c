@@ -80,7 +80,7 @@ static void fill(void)
     triangles = outline.count - 2;
     for (uint32_t i = 0; i < triangles; i++) {
         const world_face_t face = {
-                {0, i + 1, i + 2}, 7, {9, i + 10, i + 11}, 0};
+                {0, i + 1, i + 2}, 7, {9, i + 10, i + 11}, 0, false};
 
         fan[i] = face;
     }
@@ -563,7 +563,7 @@ static void fill_bent(double lift)
         (void)world_add_vertex(&world, p);
     }
     for (uint32_t i = 0; i < 2; i++) {
-        const world_face_t face = {{0, i + 1, i + 2}, 0, {0, 0, 0}, 0};
+        const world_face_t face = {{0, i + 1, i + 2}, 0, {0, 0, 0}, 0, false};
 
         fan[i] = face;
     }
@@ -611,7 +611,8 @@ TEST(real_outlines_far_away_keep_their_area)
             (void)world_add_vertex(&world, p);
         }
         for (uint32_t k = 0; k < n - 2; k++) {
-            const world_face_t face = {{0, k + 1, k + 2}, 0, {0, 0, 0}, 0};
+            const world_face_t face = {
+                    {0, k + 1, k + 2}, 0, {0, 0, 0}, 0, false};
 
             fan[k] = face;
             (void)add_cross(sum, &world, &face);
@@ -714,7 +715,8 @@ TEST(corners_nearly_in_a_side_make_no_thin_triangles)
             }
         }
         for (uint32_t i = 0; i < n - 2; i++) {
-            const world_face_t face = {{0, i + 1, i + 2}, 0, {0, 0, 0}, 0};
+            const world_face_t face = {
+                    {0, i + 1, i + 2}, 0, {0, 0, 0}, 0, false};
 
             fan[i] = face;
         }

@@ -47,8 +47,8 @@ static double add_ring(double x, double y, double radius, uint32_t material)
     }
     begin = world.face_count;
     for (uint32_t i = 2; i < n; i++) {
-        const world_face_t face = {
-                {first, first + i - 1, first + i}, material, {0, 0, 0}, 0};
+        const world_face_t face = {{first, first + i - 1, first + i}, material,
+                {0, 0, 0}, 0, false};
 
         world_add_face(&world, &face);
     }

@@ -48,7 +48,7 @@ static inline void open_world(world_t *world)
 static inline void add_triangle(
         world_t *world, const double corners[3][3], const double normals[3][3])
 {
-    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}, 0};
+    world_face_t face = {{0, 0, 0}, 0, {0, 0, 0}, 0, false};
 
     for (int i = 0; i < 3; i++) {
         face.vertex[i] = (uint32_t)world_add_vertex(world, corners[i]);

@@ -18,7 +18,8 @@ typedef struct {
     size_t count;
     bool *wanted;       /* those that are to be smooth */
     soft_vec_t *across; /* e1 x e2 of each */
-    soft_vec_t *unit;   /* the same of length 1 */
+    soft_vec_t *unit;   /* of length 1, of the whole face in the file */
+    uint32_t *first;    /* triangle of that */
     uint32_t *leaders;  /* of each corner: one that has the same normal */
     soft_t cosine;      /* of the largest angle between faces */
 } mesh_t;
@@ -53,11 +54,9 @@ static soft_t find_cosine(double degrees)
                               : soft_sin_pi(soft_negate(beyond));
 }
 
-/* Find the normals of faces; those without area are not wanted. */
-static void find_normals(mesh_t *mesh)
+/* Find the normals of triangles; those without area are not wanted. */
+static void find_across(mesh_t *mesh)
 {
-    const soft_vec_t none = {{{false, 0, 0}, {false, 0, 0}, {false, 0, 0}}};
-
     for (size_t f = 0; f < mesh->count; f++) {
         const uint32_t *v = mesh->faces[f].vertex;
         const soft_vec_t p = soft_vec_from(mesh->world->vertices[v[0]]);
@@ -67,7 +66,27 @@ static void find_normals(mesh_t *mesh)
 
         mesh->wanted[f] = mesh->wanted[f] && soft_vec_dot(n, n).m != 0;
         mesh->across[f] = n;
-        mesh->unit[f] = mesh->wanted[f] ? soft_vec_unit(n) : none;
+    }
+}
+
+/* Find the normals of faces, as the file has them: a triangle's own is that of
+ * rounding if it is thin, and says nothing if its face is bent. */
+static void find_units(mesh_t *mesh)
+{
+    size_t end;
+
+    for (size_t f = 0; f < mesh->count; f = end) {
+        soft_vec_t sum = mesh->across[f];
+
+        for (end = f + 1; end < mesh->count && mesh->faces[end].goes_on;
+                end++) {
+            sum = soft_vec_add(sum, mesh->across[end]);
+        }
+        sum = soft_vec_dot(sum, sum).m != 0 ? soft_vec_unit(sum) : sum;
+        for (size_t i = f; i < end; i++) {
+            mesh->unit[i] = sum;
+            mesh->first[i] = (uint32_t)f;
+        }
     }
 }
 
@@ -94,10 +113,13 @@ static bool is_crease(const mesh_t *mesh, const edge_t *a, const edge_t *b)
 {
     const uint32_t f = a->corners[0] / 3, g = b->corners[0] / 3;
 
-    return a->forwards == b->forwards ||
-           mesh->faces[f].group != mesh->faces[g].group ||
-           soft_compare(soft_vec_dot(mesh->unit[f], mesh->unit[g]),
-                   mesh->cosine) < 0;
+    if (a->forwards == b->forwards) {
+        return true;
+    }
+    return mesh->first[f] != mesh->first[g] &&
+           (mesh->faces[f].group != mesh->faces[g].group ||
+                   soft_compare(soft_vec_dot(mesh->unit[f], mesh->unit[g]),
+                           mesh->cosine) < 0);
 }
 
 /* Join the corners of faces that meet at an edge. */
@@ -203,11 +225,14 @@ static void smooth_mesh(mesh_t *mesh, world_t *world, world_face_t *faces,
 {
     mesh->across = cli_alloc(mesh->count, sizeof *mesh->across);
     mesh->unit = cli_alloc(mesh->count, sizeof *mesh->unit);
+    mesh->first = cli_alloc(mesh->count, sizeof *mesh->first);
     mesh->leaders = cli_alloc(3 * mesh->count, sizeof *mesh->leaders);
-    find_normals(mesh);
+    find_across(mesh);
+    find_units(mesh);
     join_corners(mesh, places);
     add_normals(mesh, world, faces);
     free(mesh->leaders);
+    free(mesh->first);
     free(mesh->unit);
     free(mesh->across);
 }

@@ -13,12 +13,13 @@
  * In a mesh with smoothing groups (s) faces of one group are smooth. In a mesh
  * that has neither those nor normals (vn), faces are if the .scene says smooth
  * and their normals differ by that angle at most; a warning says if there is no
- * such mesh. Faces meet at edges whose ends are in the same places and which
- * they go along in opposite directions; at edges of more than 16 faces, and
- * where one is the other's back, there is a crease in any case.
+ * such mesh. Triangles of one face in the file belong together in any case.
+ * Faces meet at edges whose ends are in the same places and which they go along
+ * in opposite directions; edges of more than 16 faces and those of a face and
+ * its own back are creases in any case.
  *
- * The normal of a corner is the sum over the faces around its vertex that can
- * be reached from its own across such edges: their normals e1 x e2, as long as
+ * The normal of a corner is the sum over the triangles around its vertex that
+ * can be reached from its own across such edges: of their normals, as long as
  * their area is large, times their angles there.
  *
  * Error: of an angle 2^-44; a limit is a hundredth of a degree more than said,

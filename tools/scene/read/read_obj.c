@@ -243,11 +243,13 @@ static void read_face(reader_t *reader)
     begin_polygon(reader);
     face.material = (uint32_t)reader->current;
     face.group = reader->group;
+    face.goes_on = false;
     set_corner(&face, 0, reader->corners[0]);
     for (size_t i = 2; i < count; i++) {
         set_corner(&face, 1, reader->corners[i - 1]);
         set_corner(&face, 2, reader->corners[i]);
         world_add_face(reader->world, &face);
+        face.goes_on = true;
     }
 }
 

@@ -26,6 +26,7 @@ typedef struct {
     uint32_t material;
     uint32_t normal[3]; /* 1 + index of each corner's; 0: none */
     uint32_t group;     /* that a file says is smooth, by s; 0: none */
+    bool goes_on; /* the triangle before is of the same face in the file */
 } world_face_t;
 
 /* Its faces go to the first one of the next mesh. */
