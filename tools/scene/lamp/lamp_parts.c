@@ -33,13 +33,6 @@ static int compare_entries(const void *a, const void *b)
     return order != 0 ? order : (p->face > q->face) - (p->face < q->face);
 }
 
-static bool emits(const world_t *world, const world_face_t *face)
-{
-    const double *ke = world->materials[face->material].ke;
-
-    return ke[0] > 0 || ke[1] > 0 || ke[2] > 0;
-}
-
 /* The faces that emit and repeat no other's corners. */
 static bool *find_shining(const world_t *world, const uint32_t *places)
 {
@@ -64,7 +57,7 @@ static bool *find_shining(const world_t *world, const uint32_t *places)
         const uint32_t f = entries[i].face;
 
         shining[f] =
-                emits(world, world->faces + f) &&
+                world_emits(world, world->faces[f].material) &&
                 (i == 0 || compare_keys(entries + i - 1, entries + i) != 0);
     }
     free(entries);

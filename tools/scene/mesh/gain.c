@@ -84,17 +84,12 @@ static soft_t find_ratio(
 }
 
 /* For each face of the world how much brighter its lamp shines for faces that
- * are not on the grid; NULL if all are. */
+ * are not on the grid; NULL if all that emit are. */
 static soft_t *find_factors(grid_t *grid, const world_t *world)
 {
-    bool *kept;
-    soft_t *factors;
+    bool *kept = cli_alloc(world->face_count, sizeof *kept), all = true;
+    soft_t *factors = NULL;
 
-    grid->lost_count = 0;
-    if (grid->tiny_count + grid->double_count == 0 || world->face_count == 0) {
-        return NULL;
-    }
-    kept = cli_alloc(world->face_count, sizeof *kept);
     for (size_t f = 0; f < world->face_count; f++) {
         kept[f] = false;
     }
@@ -103,7 +98,13 @@ static soft_t *find_factors(grid_t *grid, const world_t *world)
             kept[grid->faces[i].source] = true;
         }
     }
-    factors = lamp_parts_find(world, kept, &grid->lost_count);
+    for (size_t f = 0; f < world->face_count && all; f++) {
+        all = kept[f] || !world_emits(world, world->faces[f].material);
+    }
+    grid->lost_count = 0;
+    if (!all) {
+        factors = lamp_parts_find(world, kept, &grid->lost_count);
+    }
     free(kept);
     return factors;
 }
@@ -116,10 +117,9 @@ soft_t gain_faces(grid_t *grid, const world_t *world)
 
     for (uint32_t i = 0; i < grid->face_count; i++) {
         grid_face_t *face = grid->faces + i;
-        const double *ke = world->materials[face->material].ke;
 
         face->gain = GAIN_NONE;
-        if (ke[0] > 0 || ke[1] > 0 || ke[2] > 0) {
+        if (world_emits(world, face->material)) {
             const soft_t own = find_ratio(grid, world, face);
             const soft_t ratio = factors != NULL && face->sphere == 0
                                          ? soft_mul(own, factors[face->source])

@@ -99,6 +99,13 @@ bool world_is_flat(const world_t *world, const world_face_t *face)
            is_same_point(world, v[1], v[2]) || is_same_point(world, v[2], v[0]);
 }
 
+bool world_emits(const world_t *world, uint32_t material)
+{
+    const double *ke = world->materials[material].ke;
+
+    return ke[0] > 0 || ke[1] > 0 || ke[2] > 0;
+}
+
 void world_free(world_t *world)
 {
     for (size_t i = 0; i < world->sphere_count; i++) {

@@ -111,6 +111,9 @@ world_table_t *world_add_table(world_t *world);
 /* Are two corners of a face in one place? */
 bool world_is_flat(const world_t *world, const world_face_t *face);
 
+/* Does a material shine? */
+bool world_emits(const world_t *world, uint32_t material);
+
 /* Free everything; the world is empty again. */
 void world_free(world_t *world);
 
