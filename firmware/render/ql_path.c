@@ -9,6 +9,7 @@
 #include "render/ql_next_event.h"
 #include "sample/ql_roulette.h"
 #include "trace/ql_bvh.h"
+#include "trace/surface/ql_smooth.h"
 #include "trace/surface/ql_surface_at.h"
 
 /* Let the camera's ray begin a path: nothing is lost yet, and an emitter that
@@ -43,6 +44,13 @@ static bool trace_ray(
     return meets;
 }
 
+/* Is a gloss a specular one: a mirror's, or glass? */
+static bool is_specular(const ql_blob_gloss_t *gloss)
+{
+    return QL_SPECULAR && gloss != NULL &&
+           QL_LE16(gloss->kind) != QL_GLOSS_PHONG;
+}
+
 /* Make a vertex of what a ray met; false if the surface reflects nothing. */
 static bool begin_vertex(const ql_context_t *context, const ql_path_ray_t *ray,
         const ql_hit_t *hit, unsigned bounce, ql_vertex_t *vertex)
@@ -50,13 +58,13 @@ static bool begin_vertex(const ql_context_t *context, const ql_path_ray_t *ray,
     const ql_scene_t *scene = context->scene;
     const ql_blob_material_t *material =
             ql_scene_material(scene, scene->triangles + hit->tri_idx);
+    const ql_blob_gloss_t *gloss = ql_scene_gloss(scene, material);
 
     /* A surface that is diffuse only and black, or so dark that nothing is left
      * of the throughput, ends the path. */
     vertex->reflected = ray->throughput;
     ql_rgb_filter(&vertex->reflected, material->albedo);
-    if (ql_scene_gloss(scene, material) == NULL &&
-            ql_rgb_most(&vertex->reflected) == 0) {
+    if (gloss == NULL && ql_rgb_most(&vertex->reflected) == 0) {
         if ((material->albedo[0] | material->albedo[1] | material->albedo[2]) !=
                 0) {
             QL_DIAG_COUNT(context->diag, faint);
@@ -69,6 +77,9 @@ static bool begin_vertex(const ql_context_t *context, const ql_path_ray_t *ray,
     vertex->dim = QL_DIM_BOUNCE(bounce);
     vertex->tri_idx = hit->tri_idx;
     ql_surface_at(scene, &ray->ray, hit, &vertex->surface);
+    if (!is_specular(gloss)) {
+        ql_smooth_lift(scene, &vertex->surface);
+    }
     ql_bsdf_begin(&vertex->bsdf, scene, &vertex->surface, material, hit->front,
             ray->ray.direction);
     return true;

@@ -12,7 +12,8 @@
 
 /* A point on a surface, moved to the side it was seen from. The normal n
  * decides sides, exactly: of a triangle e1 x e2, of a sphere the vector between
- * centre and p in 1/256 grid units; turned to the side it was seen from. */
+ * centre and p in 1/256 grid units; turned to the side it was seen from. Of a
+ * lifted point it is the shading normal in s2.29. */
 typedef struct {
     ql_vec3_t p;    /* ql_pos_t: strictly on the side of n */
     ql_vec3_t n;    /* exact, |n| < 2^31 */
@@ -21,6 +22,9 @@ typedef struct {
      * s2.29 with shade.n > 0 */
     QL_IF_BUILT(QL_CFG_SMOOTH, bool smooth;)
     QL_IF_BUILT(QL_CFG_SMOOTH, ql_vec3_t shade;)
+    /* pos: from p to the corners' tangent planes, see ql_smooth_lift(); only of
+     * a smooth surface */
+    QL_IF_BUILT(QL_CFG_SMOOTH, ql_vec3_t lift;)
 } ql_surface_t;
 
 /* ql_surface_is_smooth: does a surface have a shading normal of its own?

@@ -76,6 +76,22 @@ TEST(open_room_is_not_black)
     CHECK(estimate_brightest(&m, &s, 128) > 0, "no light through the hole");
 }
 
+/* A smooth ball in a wall, part of it in the light outside. Its points are
+ * lifted to where a round one would be, but not through the wall. */
+TEST(smooth_ball_in_the_wall_of_a_dark_room_is_black)
+{
+    const ql_settings_t s = estimate_settings(QL_SAMPLER_RANDOM, 8, 1);
+
+    for (int i = 0; i < 3; i++) {
+        const int32_t centre[3] = {16000 + 400 * i, 15900, 15100};
+
+        make_rooms(1000, 16, 1);
+        mini_smooth_ball(&m, centre, 600, 2, mini_material(&m, 1, 0));
+        CHECK(estimate_brightest(&m, &s, 256) == 0, "ball %d", i);
+    }
+    NOTE("3 balls of 36 triangles, 8x8 px, 256 spp");
+}
+
 /* ---- Sides ------------------------------------------------------------- */
 
 TEST(light_behind_the_receiver_gives_nothing)
@@ -194,6 +210,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("known/dark", argc, argv);
     RUN(closed_room_under_light_is_black_after_64_bounces);
     RUN(open_room_is_not_black);
+    RUN(smooth_ball_in_the_wall_of_a_dark_room_is_black);
     RUN(light_behind_the_receiver_gives_nothing);
     RUN(back_of_an_emitter_gives_nothing);
     RUN(back_of_an_emitter_is_seen_black);

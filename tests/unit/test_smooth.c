@@ -1,4 +1,4 @@
-/* test_smooth.c - interpolated normals against double, never below the plane */
+/* test_smooth.c - interpolated normals, and lifted points, against double */
 /* SPDX-License-Identifier: MIT */
 
 #include <math.h>
@@ -10,6 +10,7 @@
 #include "support/ql_test.h"
 #include "math/vec/ql_vec_unit.h"
 #include "trace/ql_bvh.h"
+#include "trace/surface/ql_smooth.h"
 #include "trace/surface/ql_surface_at.h"
 #include "trace/ql_tri.h"
 
@@ -172,13 +173,12 @@ static double angle_bound(normal_t interpolated)
     return ldexp(1, -27) + ldexp(lengths / size_of(interpolated), -30);
 }
 
-/* The sum of the corner normals with the exact weights, on the seen side. */
-static normal_t interpolated(const ql_ray_t *ray, bool front)
+/* The exact weights of the corners. */
+static void weigh(const ql_ray_t *ray, double w[3])
 {
     ql_tri_frame_t f;
     ql_vec3_t n;
-    normal_t sum = {0, 0, 0};
-    double det, w[3];
+    double det;
     int64_t u = 0, minus_v = 0;
 
     ql_tri_frame(&f, &one.scene, &one.tri, ray->origin);
@@ -188,6 +188,15 @@ static normal_t interpolated(const ql_ray_t *ray, bool front)
     w[1] = (double)u / det;
     w[2] = -(double)minus_v / det;
     w[0] = (det - (double)u + (double)minus_v) / det;
+}
+
+/* The sum of the corner normals with these weights, on the seen side. */
+static normal_t interpolated(const ql_ray_t *ray, bool front)
+{
+    normal_t sum = {0, 0, 0};
+    double w[3];
+
+    weigh(ray, w);
     for (unsigned i = 0; i < 3; i++) {
         const normal_t corner = stored(i);
         const double weight = front ? w[i] : -w[i];
@@ -402,6 +411,128 @@ TEST(corner_normals_of_the_plane_give_the_plane)
     NOTE("within %.1e rad, stored to 2.6e-05", worst);
 }
 
+/* ---- Lifts ------------------------------------------------------------- */
+
+/* How far p is from the corners' tangent planes, along their normals, by their
+ * weights: position units. */
+static normal_t tangent(const ql_ray_t *ray, ql_vec3_t p)
+{
+    normal_t sum = {0, 0, 0};
+    double w[3];
+
+    weigh(ray, w);
+    for (unsigned i = 0; i < 3; i++) {
+        const normal_t n = stored(i);
+        const ql_vec3_t *c = one.corner + i;
+        const double height = (p.x - (double)c->x * ONE) * n.x +
+                              (p.y - (double)c->y * ONE) * n.y +
+                              (p.z - (double)c->z * ONE) * n.z;
+        const double way = -ldexp(w[i] * height, -30);
+
+        sum.x += way * n.x;
+        sum.y += way * n.y;
+        sum.z += way * n.z;
+    }
+    return sum;
+}
+
+static double cut(double lift, int32_t p)
+{
+    return fmax(-p / 2.0, fmin(lift, (QL_GRID_MAX * (double)ONE - p) / 2));
+}
+
+/* Worst component, position units; two corners' normals are changed after the
+ * hit if that fault is planted. */
+static double worst_lift(bool fault)
+{
+    double worst = 0;
+    unsigned long lifted = 0;
+
+    state = 6;
+    for (long i = 0; i < RAYS; i++) {
+        ql_surface_t surface;
+        ql_ray_t ray;
+        ql_hit_t hit;
+        normal_t want;
+
+        random_triangle(0.5, i % 2);
+        if (!random_hit(&ray, &hit)) {
+            continue;
+        }
+        ql_surface_at(&one.scene, &ray, &hit, &surface);
+        if (fault) {
+            const ql_blob_normal_t swap = one.normals[1];
+
+            one.normals[1] = one.normals[2];
+            one.normals[2] = swap;
+        }
+        want = tangent(&ray, surface.p);
+        worst = fmax(worst, fabs(surface.lift.x - cut(want.x, surface.p.x)));
+        worst = fmax(worst, fabs(surface.lift.y - cut(want.y, surface.p.y)));
+        worst = fmax(worst, fabs(surface.lift.z - cut(want.z, surface.p.z)));
+        lifted += ql_vec_dot(surface.lift, surface.n) > 0;
+    }
+    CHECK(lifted > RAYS / 8, "%lu of %lu points are lifted", lifted,
+            (unsigned long)RAYS);
+    NOTE("off by %.2f of a position unit at most", worst);
+    return worst;
+}
+
+TEST(lifts_are_the_mean_way_to_the_tangent_planes)
+{
+    const double worst = worst_lift(false);
+
+    CHECK(worst <= 1, "off by %.3f position units", worst);
+}
+
+TEST(lifts_by_the_wrong_corners_are_rejected)
+{
+    const double worst = worst_lift(true);
+
+    CHECK(worst > 1000, "off by %.3f position units", worst);
+}
+
+static bool in_box(int32_t p)
+{
+    return p >= 0 && p <= QL_GRID_MAX * ONE;
+}
+
+/* Of a point that is lifted all that remains smooth is its normal. */
+TEST(lifted_points_stay_in_the_box_and_are_flat)
+{
+    unsigned long lifted = 0, left = 0;
+
+    state = 7;
+    for (long i = 0; i < RAYS; i++) {
+        ql_surface_t surface, before;
+        ql_ray_t ray;
+        ql_hit_t hit;
+        bool up;
+
+        random_triangle(0.9, i % 2);
+        if (!random_hit(&ray, &hit)) {
+            continue;
+        }
+        ql_surface_at(&one.scene, &ray, &hit, &surface);
+        before = surface;
+        up = surface.smooth && ql_vec_dot_normal(surface.lift, surface.n) > 0;
+        ql_smooth_lift(&one.scene, &surface);
+        CHECK(in_box(surface.p.x) && in_box(surface.p.y) && in_box(surface.p.z),
+                "hit %ld: %ld %ld %ld", i, (long)surface.p.x, (long)surface.p.y,
+                (long)surface.p.z);
+        CHECK(up ? !surface.smooth && surface.n.x == before.shade.x &&
+                                surface.p.x == before.p.x + before.lift.x &&
+                                surface.p.y == before.p.y + before.lift.y &&
+                                surface.p.z == before.p.z + before.lift.z
+                 : surface.smooth == before.smooth && surface.p.x == before.p.x,
+                "hit %ld: up %d", i, up);
+        lifted += up;
+        left += !up;
+    }
+    CHECK(lifted > 1000 && left > 1000, "%lu lifted, %lu not", lifted, left);
+    NOTE("%lu lifted, %lu not", lifted, left);
+}
+
 /* ---- Edges ------------------------------------------------------------- */
 
 /* Two triangles that share an edge, as a roof; rays at points of the edge from
@@ -490,6 +621,9 @@ int main(int argc, char **argv)
 #endif
     RUN(a_corner_without_a_normal_makes_a_triangle_flat);
     RUN(corner_normals_of_the_plane_give_the_plane);
+    RUN(lifts_are_the_mean_way_to_the_tangent_planes);
+    RUN(lifts_by_the_wrong_corners_are_rejected);
+    RUN(lifted_points_stay_in_the_box_and_are_flat);
     RUN(neighbours_have_the_same_normal_along_their_edge);
 #else
     RUN(a_build_without_shading_normals_has_no_room_for_them);

@@ -212,6 +212,57 @@ static void surface_of_triangle(
     }
 }
 
+/* How far a point of a smooth triangle is below the tangent planes of its
+ * corners, in the mean, by the weights that the normals have. */
+static ref_vec_t lift_of(const ref_shape_t *shape, const ref_hit_t *hit,
+        const ref_surface_t *surface)
+{
+    const double weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
+    const ref_vec_t corner[3] = {shape->corner,
+            ref_along(shape->corner, shape->e1, 1),
+            ref_along(shape->corner, shape->e2, 1)};
+    ref_vec_t lift = {0, 0, 0};
+
+    for (unsigned i = 0; i < 3; i++) {
+        const ref_vec_t n =
+                ref_scale(shape->normal[i], (hit->front ? 1 : -1) / 32768.0);
+        const double height = ref_dot(ref_sub(surface->p, corner[i]), n);
+
+        lift = ref_along(lift, n, -weight[i] * height);
+    }
+    return lift;
+}
+
+/* A component that does not leave the box if it is taken twice. */
+static double cut_lift(double lift, double p)
+{
+    return fmax(-p / 2, fmin(lift, (QL_GRID_MAX - p) / 2));
+}
+
+/* As ql_smooth_lift() does. */
+static void lift(const ref_scene_t *scene, const ref_shape_t *shape,
+        const ref_hit_t *hit, ref_surface_t *surface)
+{
+    ref_vec_t up = lift_of(shape, hit, surface);
+    double length;
+    ref_ray_t ray;
+
+    up.x = cut_lift(up.x, surface->p.x);
+    up.y = cut_lift(up.y, surface->p.y);
+    up.z = cut_lift(up.z, surface->p.z);
+    length = sqrt(ref_dot(up, up));
+    if (length * (1 << QL_POS_BITS) < 0.5 || ref_dot(up, surface->n) <= 0) {
+        return;
+    }
+    ray = ref_leave(surface, ref_unit(up), REF_ABOVE);
+    if (!ref_blocked(scene, &ray, 2 * length, REF_NOWHERE)) {
+        surface->p = ref_along(surface->p, up, 1);
+        surface->n = surface->shade;
+        surface->smooth = false;
+        surface->shape = REF_NOWHERE; /* it may be met from there */
+    }
+}
+
 void ref_surface_at(const ref_scene_t *scene, const ref_ray_t *ray,
         const ref_hit_t *hit, ref_surface_t *surface)
 {
@@ -228,6 +279,10 @@ void ref_surface_at(const ref_scene_t *scene, const ref_ray_t *ray,
     }
     if (scene->rounding != NULL && scene->rounding->point != NULL) {
         scene->rounding->point(scene->rounding->data, ray, hit, surface);
+    }
+    if (surface->smooth && shape->material->kind != QL_GLOSS_MIRROR &&
+            shape->material->kind != QL_GLOSS_GLASS) {
+        lift(scene, shape, hit, surface);
     }
 }
 

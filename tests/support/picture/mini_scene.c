@@ -225,6 +225,48 @@ void mini_ball(mini_scene_t *m, int parts, uint16_t material)
     }
 }
 
+/* A corner of a ball with its normal: where it is around, in turns, and how far
+ * from the pole, in half turns. */
+static uint16_t corner_of_ball(mini_scene_t *m, const int32_t centre[3],
+        int32_t radius, double turns, double from_pole)
+{
+    const double around = 2 * 3.14159265358979323846 * turns;
+    const double down = 3.14159265358979323846 * from_pole;
+    const double n[3] = {
+            sin(down) * cos(around), sin(down) * sin(around), cos(down)};
+    const uint16_t v =
+            mini_vertex(m, centre[0] + (int32_t)lround(radius * n[0]),
+                    centre[1] + (int32_t)lround(radius * n[1]),
+                    centre[2] + (int32_t)lround(radius * n[2]));
+
+    mini_normal(m, v, n);
+    return v;
+}
+
+void mini_smooth_ball(mini_scene_t *m, const int32_t centre[3], int32_t radius,
+        int parts, uint16_t material)
+{
+    const int around = 3 * parts, down = 2 * parts;
+
+    for (int i = 0; i < down; i++) {
+        for (int j = 0; j < around; j++) {
+            uint16_t v[4];
+
+            for (int k = 0; k < 4; k++) {
+                v[k] = corner_of_ball(m, centre, radius,
+                        (double)((j + (k == 1 || k == 2)) % around) / around,
+                        (double)(i + k / 2) / down);
+            }
+            if (i < down - 1) {
+                mini_face(m, v[0], v[3], v[2], material);
+            }
+            if (i > 0) {
+                mini_face(m, v[0], v[2], v[1], material);
+            }
+        }
+    }
+}
+
 static void put_wide(uint32_t words[2], double value)
 {
     const int64_t q32 = (int64_t)floor(ldexp(value, 32) + 0.5);

@@ -147,6 +147,11 @@ void mini_room(mini_scene_t *m, const int32_t low[3], const int32_t high[3],
  * sides of each cut into parts (63 at most). */
 void mini_ball(mini_scene_t *m, int parts, uint16_t material);
 
+/* A smooth ball of few faces, its front outwards: 3 parts around, 2 parts from
+ * pole to pole. */
+void mini_smooth_ball(mini_scene_t *m, const int32_t centre[3], int32_t radius,
+        int parts, uint16_t material);
+
 /* Look from a point, every ray along one direction of components below 2 in
  * size: all samples of all pixels meet the same point. */
 void mini_eye(mini_scene_t *m, double x, double y, double z);
