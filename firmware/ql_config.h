@@ -69,7 +69,8 @@
  *   QL_CFG_SKY_MAP  a picture of it; needs QL_CFG_SKY and QL_CFG_TABLES
  *   QL_CFG_TABLES   tabulated distributions
  *   QL_CFG_LENS     depth of field
- *   QL_CFG_CONTACT  surfaces that touch, which light must not pass between */
+ *   QL_CFG_CONTACT  surfaces that touch, which light must not pass between
+ *   QL_CFG_ORDER    surfaces in one place, of which one counts */
 #ifndef QL_CFG_SPHERES
 #define QL_CFG_SPHERES 1
 #endif
@@ -99,6 +100,9 @@
 #endif
 #ifndef QL_CFG_CONTACT
 #define QL_CFG_CONTACT 1
+#endif
+#ifndef QL_CFG_ORDER
+#define QL_CFG_ORDER 1
 #endif
 
 /* QL_CFG_STRATEGIES: 0 or 1. Every estimator of ql_settings_t; with 0 only the
@@ -222,7 +226,7 @@
 #endif
 #if (QL_CFG_SPHERES | QL_CFG_SMOOTH | QL_CFG_PHONG | QL_CFG_MIRROR |           \
         QL_CFG_GLASS | QL_CFG_SKY | QL_CFG_SKY_MAP | QL_CFG_TABLES |           \
-        QL_CFG_LENS | QL_CFG_CONTACT | QL_CFG_STRATEGIES) &                    \
+        QL_CFG_LENS | QL_CFG_CONTACT | QL_CFG_ORDER | QL_CFG_STRATEGIES) &     \
         ~1
 #error "QL_CFG_SPHERES .. QL_CFG_STRATEGIES: use 0 or 1 for each"
 #endif
@@ -261,7 +265,7 @@
             QL_CFG_MIRROR, QL_CFG_GLASS, , )
 #define QL_GATES_5                                                             \
     QL_JOIN(_sky, QL_CFG_SKY, QL_CFG_SKY_MAP, QL_CFG_TABLES, QL_CFG_LENS,      \
-            QL_CFG_CONTACT, , )
+            QL_CFG_CONTACT, QL_CFG_ORDER, )
 #define QL_GATES_6                                                             \
     QL_JOIN(_strategies, QL_CFG_STRATEGIES, QL_CFG_ADAPTIVE, QL_CFG_INDIRECT,  \
             QL_CFG_SAMPLERS, QL_CFG_FORMATS, QL_CFG_PANEL, )

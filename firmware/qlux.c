@@ -46,6 +46,7 @@
 #include "blob/ql_blob_tree.c"
 
 #include "trace/ql_bvh.c"
+#include "trace/ql_order.c"
 #include "trace/ql_sphere.c"
 #include "trace/surface/ql_contact.c"
 #include "trace/surface/ql_shading.c"

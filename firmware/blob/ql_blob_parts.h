@@ -15,7 +15,8 @@
 /* Is there a part that not every blob has? */
 #define QL_BLOB_HAS_OPTIONAL                                                   \
     (QL_CFG_SMOOTH || QL_GLOSS || QL_CFG_SPHERES || QL_CFG_SKY ||              \
-            QL_CFG_SKY_MAP || QL_CFG_TABLES || QL_CFG_LENS || QL_CFG_CONTACT)
+            QL_CFG_SKY_MAP || QL_CFG_TABLES || QL_CFG_LENS ||                  \
+            QL_CFG_CONTACT || QL_CFG_ORDER)
 
 /* What one part finds out for another, of a blob that is being opened. */
 typedef struct {
@@ -179,6 +180,22 @@ QL_INLINE bool ql_blob_contacts_open(ql_blob_parts_t *parts, ql_scene_t *scene)
 }
 #else
 QL_INLINE bool ql_blob_contacts_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    return (void)parts, (void)scene, true;
+}
+#endif
+
+/* Which counts where surfaces are in one place; parts, scene as above. */
+#if QL_CFG_ORDER
+QL_INLINE bool ql_blob_ranks_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    scene->ranks = ql_blob_optional(
+            parts, QL_FEATURE_ORDER, sizeof *scene->ranks, QL_TRI_MAX);
+    return parts->sound &&
+           (scene->ranks == NULL || parts->count == parts->triangle_count);
+}
+#else
+QL_INLINE bool ql_blob_ranks_open(ql_blob_parts_t *parts, ql_scene_t *scene)
 {
     return (void)parts, (void)scene, true;
 }

@@ -43,7 +43,8 @@
     X(QL_FEATURE_SKY_MAP, 11, "sky-map")                                       \
     X(QL_FEATURE_TABLES, 12, "tables")                                         \
     X(QL_FEATURE_LENS, 13, "lens")                                             \
-    X(QL_FEATURE_CONTACT, 14, "contact")
+    X(QL_FEATURE_CONTACT, 14, "contact")                                       \
+    X(QL_FEATURE_ORDER, 15, "order")
 
 enum {
 #define QL_FEATURE_ENUM(name, bit, text) name = 1 << (bit),
@@ -93,9 +94,10 @@ typedef struct {
     X(tables, ql_blob_distribution_t, QL_FEATURE_TABLES)                       \
     X(words, uint16_t, QL_FEATURE_TABLES)                                      \
     X(lens, ql_blob_lens_t, QL_FEATURE_LENS)                                   \
-    X(contacts, uint16_t, QL_FEATURE_CONTACT)
+    X(contacts, uint16_t, QL_FEATURE_CONTACT)                                  \
+    X(ranks, uint16_t, QL_FEATURE_ORDER)
 
-enum { QL_BLOB_OPTIONAL_MAX = 9 }; /* entries of that list */
+enum { QL_BLOB_OPTIONAL_MAX = 10 }; /* entries of that list */
 
 /* A pinhole camera: origin and direction are affine in the picture's plane.
  * A point (x, y) of the plane, y up, |y| <= 1 and |x| <= width/height, has

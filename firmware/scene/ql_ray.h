@@ -19,6 +19,8 @@ typedef struct {
     uint16_t tri_idx;
     bool front;  /* seen from its counter-clockwise side, or from outside */
     ql_uq30_t t; /* hit = origin + t direction */
+    QL_IF_BUILT(QL_CFG_ORDER, uint64_t exact_t;) /* t = exact_t / exact_det */
+    QL_IF_BUILT(QL_CFG_ORDER, uint64_t exact_det;)
 } ql_hit_t;
 
 #endif

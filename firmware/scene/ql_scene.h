@@ -33,6 +33,7 @@ typedef struct ql_scene {
     QL_IF_BUILT(QL_CFG_TABLES, uint16_t table_count;)
     QL_IF_BUILT(QL_CFG_LENS, const ql_blob_lens_t *lens;)
     QL_IF_BUILT(QL_CFG_CONTACT, const uint16_t *contacts;)
+    QL_IF_BUILT(QL_CFG_ORDER, const uint16_t *ranks;)
 } ql_scene_t;
 
 /* Corner i of a triangle, grid units. */

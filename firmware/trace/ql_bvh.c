@@ -26,6 +26,7 @@
 #include "trace/ql_bvh.h"
 
 #include "math/ql_real.h"
+#include "trace/ql_order.h"
 #include "trace/ql_sphere.h"
 #include "trace/ql_tri.h"
 
@@ -340,14 +341,17 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
 #endif
 
         if (side != 0) {
-            const ql_uq30_t at = parameter(t, det);
-            const uint16_t i = (uint16_t)(tri - scene->triangles);
+            ql_hit_t found;
 
-            if (at < hit->t || (at == hit->t && i < hit->tri_idx)) {
-                hit->t = at;
-                hit->tri_idx = i;
-                hit->front = side > 0;
-                probe_shorten(p, at);
+            found.t = parameter(t, det);
+            found.tri_idx = (uint16_t)(tri - scene->triangles);
+            found.front = side > 0;
+            ql_order_keep(&found, t, det);
+            if (ql_order_is_close(scene, &found, hit)
+                            ? ql_order_is_before_exactly(scene, &found, hit)
+                            : ql_order_is_before_as_rounded(&found, hit)) {
+                *hit = found;
+                probe_shorten(p, found.t);
             }
         }
     }
@@ -487,6 +491,7 @@ bool ql_bvh_closest_hit(
         const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit)
 {
     hit->t = NO_HIT;
+    ql_order_keep(hit, 1, 0);
     hit->tri_idx = 0;
     hit->front = false;
 #if QL_CFG_NODE16

@@ -14,8 +14,8 @@
  *   hit     -  out: valid if true is returned
  *   return  true if anything is hit
  *
- * Exact: which triangles are hit. Among them the smallest t wins, as rounded,
- * of equals the lowest index. Error: t within 2^-29 t + 2^-27
+ * Exact: which triangles are hit. Among them the smallest t wins, of equals the
+ * first, as ql_order.h has it. Error: t within 2^-29 t + 2^-27
  * (tests/unit/test_bvh.c), far below an ulp of the hit point; for spheres see
  * ql_sphere_hit().
  * Cost: four bytes of stack for each of QL_CFG_BVH_STACK.

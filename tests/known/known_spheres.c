@@ -509,7 +509,7 @@ TEST(tree_of_spheres_finds_what_trying_each_one_finds)
         for (int i = 0; i < RAYS / 2; i++) {
             const int32_t range = 1 << (QL_DIR_BITS - 1);
             ql_ray_t ray;
-            ql_hit_t want = {0, false, 0}, got;
+            ql_hit_t want = {.tri_idx = 0}, got;
             ql_vec3_t d;
             bool hit, found;
 

@@ -49,7 +49,8 @@ static void build(unsigned node_bits)
 /* Is every feature of the format built in? */
 #define ALL                                                                    \
     (QL_CFG_SMOOTH && QL_CFG_PHONG && QL_CFG_MIRROR && QL_CFG_GLASS &&         \
-            QL_CFG_SPHERES && QL_CFG_SKY_MAP && QL_CFG_LENS && QL_CFG_CONTACT)
+            QL_CFG_SPHERES && QL_CFG_SKY_MAP && QL_CFG_LENS &&                 \
+            QL_CFG_CONTACT && QL_CFG_ORDER)
 
 /* A room with everything that is built in: spheres, smooth triangles, each
  * material, a map of the sky, a table of three dimensions, a lens. */
@@ -118,6 +119,7 @@ static void build_all(unsigned node_bits)
         mini_sky(&mini, 0.1, 0.2, 0.3);
     }
     mini.contact = QL_CFG_CONTACT;
+    mini.order = QL_CFG_ORDER;
     if (QL_CFG_LENS) {
         mini_lens(&mini, lens[0], lens[1]);
     }
@@ -172,6 +174,9 @@ static bool all_zero(const ql_scene_t *scene)
 #endif
 #if QL_CFG_CONTACT
            && scene->contacts == NULL
+#endif
+#if QL_CFG_ORDER
+           && scene->ranks == NULL
 #endif
             ;
 }
@@ -839,6 +844,7 @@ TEST(every_rule_of_every_table_is_checked)
                     0xbfffffffu},
             {"a mark for each triangle", OPTIONAL_contacts, COUNT, 4, 0},
             {"no mark more", OPTIONAL_contacts, COUNT, 4, 2},
+            {"a rank for each triangle", OPTIONAL_ranks, COUNT, 4, 5},
             {"the sky is the last light", CORE_lights,
                     IN(ql_blob_light_t, 1, triangle), 0},
             {"lights in order", CORE_lights, IN(ql_blob_light_t, 0, triangle),

@@ -260,7 +260,7 @@ static void check_closest(void)
     for (long i = 0; i < BRUTE_RAYS; i++) {
         ql_vec3_t to;
         const ql_ray_t ray = random_ray(i, &to);
-        ql_hit_t hit, brute = {0, false, 0};
+        ql_hit_t hit, brute = {.tri_idx = 0};
         bool got, expected;
 
         if ((ray.direction.x | ray.direction.y | ray.direction.z) == 0) {

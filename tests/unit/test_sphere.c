@@ -873,7 +873,7 @@ TEST(spheres_and_triangles_in_a_tree_equal_brute_force)
         build_balls(bits, &scene);
         for (long i = 0; i < MANY(20000); i++) {
             const unsigned s = (unsigned)random_in(0, BALLS - 1);
-            ql_hit_t hit, brute = {0, false, 0};
+            ql_hit_t hit, brute = {.tri_idx = 0};
             ql_ray_t ray;
             bool got, want;
 

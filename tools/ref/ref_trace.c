@@ -110,6 +110,26 @@ typedef struct {
     uint32_t but; /* is left out */
 } wanted_t;
 
+/* Is a the hit that counts of two in one place? */
+static bool is_first(
+        const ref_scene_t *scene, const ref_hit_t *a, const ref_hit_t *b)
+{
+    const uint16_t *ranks = scene->blob->ranks;
+
+    if (ranks != NULL && b->shape != REF_NOWHERE) {
+        const uint16_t rank = QL_LE16(ranks[a->shape]);
+        const uint16_t other = QL_LE16(ranks[b->shape]);
+
+        if (rank != other) {
+            return rank < other;
+        }
+        if (a->front != b->front) {
+            return a->front;
+        }
+    }
+    return a->shape < b->shape;
+}
+
 /* Test the shapes of a leaf. True if that ends the walk. */
 static bool visit(const ref_scene_t *scene, const ref_ray_t *ray,
         unsigned first, unsigned count, wanted_t wanted, ref_hit_t *nearest)
@@ -122,7 +142,7 @@ static bool visit(const ref_scene_t *scene, const ref_ray_t *ray,
         }
         if (hit.t < nearest->t - NEAR ||
                 (!wanted.any && hit.t < nearest->t + NEAR &&
-                        hit.shape < nearest->shape)) {
+                        is_first(scene, &hit, nearest))) {
             *nearest = hit;
             if (wanted.any) {
                 return true;

@@ -104,6 +104,7 @@ void mini_face(
     }
     memcpy(m->triangles[m->triangle_count].vertex, vertex, sizeof vertex);
     m->triangles[m->triangle_count].sphere = false;
+    m->triangles[m->triangle_count].rank = (uint16_t)m->triangle_count;
     m->triangles[m->triangle_count++].material = material;
 }
 
@@ -949,7 +950,8 @@ static uint32_t features_of(const mini_scene_t *m, unsigned lights)
             (m->sky_entry.width ? (uint32_t)QL_FEATURE_SKY_MAP : 0u) |
             (m->table_count ? (uint32_t)QL_FEATURE_TABLES : 0u) |
             (m->has_lens ? (uint32_t)QL_FEATURE_LENS : 0u) |
-            (m->contact ? (uint32_t)QL_FEATURE_CONTACT : 0u);
+            (m->contact ? (uint32_t)QL_FEATURE_CONTACT : 0u) |
+            (m->order ? (uint32_t)QL_FEATURE_ORDER : 0u);
 
     for (unsigned i = 0; i < m->material_count; i++) {
         switch (m->materials[i].gloss) {
@@ -1106,6 +1108,12 @@ static void put_more(writer_t *w, tables_t *tables, unsigned gloss)
                 (m->triangle_count + 15) / 16)) {
         for (unsigned i = 0; i < (m->triangle_count + 15) / 16; i++) {
             put(w, 0xffff, 2);
+        }
+    }
+    if (wanted(w, tables, OPTIONAL_ranks, QL_FEATURE_ORDER,
+                m->triangle_count)) {
+        for (unsigned i = 0; i < m->triangle_count; i++) {
+            put(w, m->triangles[i].rank, 2);
         }
     }
 }

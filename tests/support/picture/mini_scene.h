@@ -35,6 +35,7 @@
 typedef struct {
     uint16_t vertex[3], material;
     bool sphere;
+    uint16_t rank; /* if the scene has an order; may be set */
 } mini_triangle_t;
 
 typedef struct {
@@ -52,6 +53,7 @@ typedef struct {
     unsigned leaf_max;      /* triangles, 1 to 13; 4 unless set */
     bool two_sided;         /* emitters */
     bool contact;           /* every face may touch another */
+    bool order;             /* faces have ranks: the order of their making */
 
     /* Faults to plant: what a broken light table would say. */
     double light_weight_scale; /* 1 unless set */

@@ -698,8 +698,8 @@ needs glossy 'NODE16 LIGHTS PHONG MIRROR GLASS SPHERES CONTACT'
 needs sky 'NODE16 LIGHTS PHONG SPHERES SKY SKY_MAP TABLES CONTACT'
 needs lens 'NODE16 LIGHTS SPHERES SKY LENS CONTACT'
 needs smooth 'NODE16 LIGHTS SMOOTH CONTACT'
-needs wild 'NODE16 LIGHTS TWO_SIDED SMOOTH MIRROR GLASS CONTACT'
-[ "$(grep -c '^#define QL_CFG_' in/n.h)" = 16 ]
+needs wild 'NODE16 LIGHTS TWO_SIDED SMOOTH MIRROR GLASS CONTACT ORDER'
+[ "$(grep -c '^#define QL_CFG_' in/n.h)" = 17 ]
 say every_gate_is_said $?
 "$scene" "$scenes/sky.scene" -o in/n.qlb --quiet
 "$scene" --info in/n.qlb >in/info.txt
@@ -753,7 +753,7 @@ furnace 40710584 b3fc3ba0
 furnace08 c142d5d8 30d30534
 furnace099 694a8df5 29dac9c6
 square 8a4f6ea6 963300a6
-wild 8aee54a2 c2a3cba1
+wild caadac8c ed54834b
 glossy 8e154d7b 2576da4c
 sky d6333909 d995dcc6
 lens 73118f00 0d4e2df5

@@ -24,9 +24,9 @@ typedef enum { WITH_ALL, WITH_8_BITS, WITH_CONSTANT_SKY } scene_kind_t;
 static mini_scene_t mini;
 
 /* One triangle and one sphere that shine and two that do not, each gloss, a
- * map of the sky, tables, a lens, contacts. Entries are in the order of their
- * making but for triangles, which the tree sorts, and materials, glossy ones
- * first. */
+ * map of the sky, tables, a lens, contacts, ranks. Entries are in the order of
+ * their making but for triangles, which the tree sorts, and materials, glossy
+ * ones first. */
 static void build(scene_kind_t kind)
 {
     static const int32_t ball[2][3] = {
@@ -72,6 +72,7 @@ static void build(scene_kind_t kind)
     }
     mini_lens(&mini, lens[0], lens[1]);
     mini.contact = true;
+    mini.order = true;
     mini_field(&mini, right, up);
     mini_open(&mini, &scene);
 }
@@ -152,7 +153,7 @@ static const blob_field_t *field_of(const blob_table_t *table, const char *name)
 }
 
 /* Move a table to the end, as so many entries; new ones are as its last. With
- * the triangles goes the table of what touches. */
+ * the triangles go the tables of what touches and of ranks. */
 static void grow(const blob_table_t *table, uint32_t count)
 {
     ql_blob_table_t *const place = place_of(table);
@@ -174,6 +175,7 @@ static void grow(const blob_table_t *table, uint32_t count)
     header()->size_bytes = copy.size;
     if (strcmp(table->name, "triangles") == 0) {
         grow(table_of("contacts"), (count + 15) / 16);
+        grow(table_of("ranks"), count);
     }
 }
 
@@ -241,8 +243,8 @@ static const rule_t rules[] = {
         NOT_BY("header", "magic", 0x58554c50u, QL_ERR_MAGIC),
         NOT_BY("header", "version", 0, QL_ERR_VERSION),
         NOT_BY("header", "version", 2, QL_ERR_VERSION),
-        NOT_BY("header", "header_bytes", 88 + 8 * 8, QL_ERR_VERSION),
-        NOT_BY("header", "header_bytes", 88 + 8 * 10, QL_ERR_VERSION),
+        NOT_BY("header", "header_bytes", 88 + 8 * 9, QL_ERR_VERSION),
+        NOT_BY("header", "header_bytes", 88 + 8 * 11, QL_ERR_VERSION),
         NOT_BY("header", "size_bytes", 0x7ffffffcu, QL_ERR_TRUNCATED),
         NOT_BY("header", "size_bytes", 84, QL_ERR_RANGE),
         NOT_BY("header", "features", 0x40003fe5u, QL_ERR_FEATURE),
@@ -376,6 +378,7 @@ static const rule_t rules[] = {
         REACHES("lens", "d[1]"),
 
         FREE("contacts", "word"),
+        FREE("ranks", "word"),
 };
 enum { RULES = sizeof rules / sizeof rules[0] };
 
@@ -651,7 +654,8 @@ TEST(tables_have_no_more_entries_than_the_format_allows)
         const char *name;
         uint32_t exact;
     } exact[] = {{"camera", 1}, {"vertices", 7}, {"normals", 7}, {"pairs16", 3},
-            {"sky", 1}, {"texels", 32}, {"lens", 1}, {"contacts", 1}};
+            {"sky", 1}, {"texels", 32}, {"lens", 1}, {"contacts", 1},
+            {"ranks", 4}};
 
     tried = 0;
     for (unsigned i = 0; i < sizeof most / sizeof most[0]; i++) {
@@ -689,7 +693,7 @@ TEST(features_are_those_that_the_blob_has)
         const uint32_t free_ones = QL_FEATURE_TWO_SIDED | QL_FEATURE_PAGES;
         const uint32_t same_header = kinds | QL_FEATURE_LIGHTS |
                                      QL_FEATURE_NODE16 | QL_FEATURE_NODE8;
-        const ql_status_t wanted = bit > 14                ? QL_ERR_FEATURE
+        const ql_status_t wanted = bit > 15                ? QL_ERR_FEATURE
                                    : feature & free_ones   ? QL_OK
                                    : feature & same_header ? QL_ERR_RANGE
                                                            : QL_ERR_VERSION;
@@ -725,7 +729,8 @@ TEST(tables_that_others_need_cannot_be_left_out)
     } optional[] = {{"normals", NULL, false}, {"gloss", NULL, false},
             {"spheres", NULL, true}, {"sky", NULL, true},
             {"texels", NULL, true}, {"tables", "words", true},
-            {"lens", NULL, false}, {"contacts", NULL, false}};
+            {"lens", NULL, false}, {"contacts", NULL, false},
+            {"ranks", NULL, false}};
 
     for (unsigned i = 0; i < sizeof optional / sizeof optional[0]; i++) {
         const blob_table_t *const table = table_of(optional[i].name);

@@ -183,6 +183,7 @@ ROWS(lens, LENS, ql_blob_lens_t);
     }
 static const blob_field_t words_rows[] = WORD_ROW("w", "a word");
 static const blob_field_t contacts_rows[] = WORD_ROW("c", "marks");
+static const blob_field_t ranks_rows[] = WORD_ROW("r", "a rank");
 
 /* ---- the tables ---- */
 
@@ -262,6 +263,9 @@ const blob_table_t blob_tables[BLOB_TABLE_COUNT] = {
         TABLE(contacts, uint16_t, .repeat = 1, .per_line = 8, .count_min = 1,
                 .count_max = (QL_TRI_MAX + 15) / 16,
                 .title = "contacts: a bit for each triangle"),
+        TABLE(ranks, uint16_t, .repeat = 1, .per_line = 8, .count_min = 1,
+                .count_max = QL_TRI_MAX,
+                .title = "ranks: one for each triangle"),
 };
 
 bool blob_has_table(const blob_table_t *table, uint32_t features)

@@ -19,6 +19,7 @@
 #include "scene/mesh/smooth.h"
 #include "scene/touch/contacts.h"
 #include "scene/touch/joints.h"
+#include "scene/touch/ranks.h"
 #include "scene/world/extent.h"
 
 #define PAGE            65536u /* index of a page's first vertex over page */
@@ -201,6 +202,13 @@ static void place_contacts(model_t *model, const grid_t *grid, const bvh_t *bvh)
             model->contacts != NULL ? (grid->face_count + 15) / 16 : 0;
 }
 
+/* Say which counts where surfaces are in one place, if any are. */
+static void place_ranks(model_t *model, const grid_t *grid, const bvh_t *bvh)
+{
+    model->ranks = ranks_find(grid, bvh);
+    model->ranks_count = model->ranks != NULL ? grid->face_count : 0;
+}
+
 /* Do surfaces emit, not just the sky? */
 static bool has_emitters(const model_t *model)
 {
@@ -242,6 +250,7 @@ static uint32_t find_features(const model_t *model)
     features |= model->tables_count > 0 ? QL_FEATURE_TABLES : 0;
     features |= model->lens_count > 0 ? QL_FEATURE_LENS : 0;
     features |= model->contacts_count > 0 ? QL_FEATURE_CONTACT : 0;
+    features |= model->ranks_count > 0 ? QL_FEATURE_ORDER : 0;
     return features | find_gloss_features(model) | find_sky_features(model);
 }
 
@@ -285,6 +294,7 @@ void compile_model(model_t *model, const world_t *world, const grid_t *grid,
     build_lights(model, grid, bvh, world->path);
     place_nodes(model, bvh, node_bits);
     place_contacts(model, grid, bvh);
+    place_ranks(model, grid, bvh);
     fill_header(model, world, grid);
 }
 

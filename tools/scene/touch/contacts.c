@@ -8,6 +8,7 @@
 
 #include "lib/math/soft.h"
 #include "lib/program/cli.h"
+#include "scene/touch/around.h"
 
 enum {
     REACH = 8,         /* grid units between boxes that may be near */
@@ -165,35 +166,6 @@ static bool is_near(const viewer_t *v, const sight_t seen[3])
 
 /* ---- spheres ---- */
 
-/* The box of a face and as much more on each side. */
-typedef struct {
-    int32_t low[3], high[3];
-} box_t;
-
-static box_t box_around(const grid_t *grid, const grid_face_t *face, int more)
-{
-    uint16_t low[3], high[3];
-    box_t box;
-
-    grid_box(grid, face, low, high);
-    for (int k = 0; k < 3; k++) {
-        box.low[k] = low[k] - more;
-        box.high[k] = high[k] + more;
-    }
-    return box;
-}
-
-static bool do_meet(
-        const box_t *a, const uint16_t low[3], const uint16_t high[3])
-{
-    bool meet = true;
-
-    for (int k = 0; k < 3; k++) {
-        meet = meet && a->low[k] <= high[k] && low[k] <= a->high[k];
-    }
-    return meet;
-}
-
 /* Does the surface of a sphere come into a box, that is: is the nearest point
  * of it inside, and the farthest outside? */
 static bool is_crossed(const box_t *box, const ql_blob_sphere_t *sphere)
@@ -289,41 +261,15 @@ static void look_at(search_t *s, const grid_face_t *other)
     }
 }
 
-static void look_at_leaf(search_t *s, const bvh_t *bvh, const bvh_node_t *leaf)
-{
-    uint16_t low[3], high[3];
-
-    for (uint32_t i = 0; i < leaf->meta - BVH_LEAF && !s->marked; i++) {
-        const grid_face_t *other = s->grid->faces + bvh->order[leaf->link + i];
-
-        grid_box(s->grid, other, low, high);
-        if (do_meet(&s->box, low, high)) {
-            look_at(s, other);
-        }
-    }
-}
-
 /* Look at every face within reach, until one is near. */
 static void look_around(search_t *s, const bvh_t *bvh)
 {
-    const bvh_node_t *stack[QL_DEPTH_MAX + 2];
-    int top = 0;
+    const grid_face_t *other;
+    around_t walk;
 
-    stack[top++] = &bvh->root;
-    while (top > 0 && !s->marked) {
-        const bvh_node_t *node = stack[--top];
-
-        if (node->meta >= BVH_LEAF) {
-            look_at_leaf(s, bvh, node);
-            continue;
-        }
-        for (int i = 0; i < 2; i++) {
-            const bvh_node_t *child = bvh->pairs[node->link] + i;
-
-            if (do_meet(&s->box, child->low, child->high)) {
-                stack[top++] = child;
-            }
-        }
+    around_begin(&walk, s->grid, bvh, s->box);
+    while (!s->marked && (other = around_next(&walk)) != NULL) {
+        look_at(s, other);
     }
 }
 
