@@ -87,7 +87,7 @@ static QL_NOINLINE void draw_back(const ql_scene_t *scene, const ql_ray_t *ray,
         const ql_hit_t *hit, ql_surface_t *surface)
 {
     ql_hit_t at = *hit;
-    uint32_t back = 1u << (31 - QL_DIR_BITS); /* one unit or two */
+    uint32_t back = (uint32_t)1 << (31 - QL_DIR_BITS); /* one unit or two */
 
     while (at.t > 0 && !ql_contact_is_free(scene, &ray->origin, &surface->p,
                                (uint16_t)QL_TRI_MAX)) {

@@ -89,13 +89,25 @@ static uint32_t place_at(const joints_t *j, const world_face_t *face, int i)
     return j->place_of[face->vertex[i % 3]];
 }
 
-/* Is a face one on the grid, but for its area? */
+/* Twice the area of three places, along an axis, in squares of 1/16 units. */
+static int64_t area_along(
+        const place_t *a, const place_t *b, const place_t *c, int axis)
+{
+    const int x = (axis + 1) % 3, y = (axis + 2) % 3;
+
+    return (b->at[x] - a->at[x]) * (c->at[y] - a->at[y]) -
+           (b->at[y] - a->at[y]) * (c->at[x] - a->at[x]); /* below 2^41 */
+}
+
+/* Has a face an area, where its corners are? If not it is dropped later. */
 static bool counts(const joints_t *j, const world_face_t *face)
 {
-    const uint32_t a = place_at(j, face, 0), b = place_at(j, face, 1);
-    const uint32_t c = place_at(j, face, 2);
+    const place_t *a = j->places + place_at(j, face, 0);
+    const place_t *b = j->places + place_at(j, face, 1);
+    const place_t *c = j->places + place_at(j, face, 2);
 
-    return a != b && b != c && c != a && !world_is_flat(j->world, face);
+    return area_along(a, b, c, 0) != 0 || area_along(a, b, c, 1) != 0 ||
+           area_along(a, b, c, 2) != 0;
 }
 
 /* ---- indices ------------------------------------------------------------ */
