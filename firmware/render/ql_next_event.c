@@ -18,6 +18,25 @@
     (!QL_GLOSS && !QL_CFG_SMOOTH && !QL_CFG_SPHERES && !QL_CFG_SKY &&          \
             !QL_CFG_STRATEGIES)
 
+/* Does a ray that leads to an emitter meet it, not another surface in its
+ * place? It does in a scene without any. w is a difference of positions. */
+static bool is_met(const ql_context_t *context, ql_vec3_t origin, ql_vec3_t w,
+        uint16_t light)
+{
+    const ql_scene_t *scene = context->scene;
+    ql_ray_t ray;
+    ql_hit_t hit;
+
+    if (ql_scene_ranks(scene) == NULL) {
+        return true;
+    }
+    QL_DIAG_COUNT(context->diag, closest_rays);
+    ray.origin = origin;
+    ray.direction = ql_vec_to_dir(w);
+    return ql_bvh_closest_hit(scene, &ray, &hit) &&
+           hit.tri_idx == QL_LE16(scene->lights[light].triangle);
+}
+
 /* ---- A point of a triangle, seen from a flat diffuse surface ----------- */
 
 /* weight (n.w)(N.w) / |w|^4 with n unit. Positions carry f fraction bits: two
@@ -54,7 +73,8 @@ static void sample_point(const ql_context_t *context, const ql_vertex_t *vertex,
     }
     ray.origin = surface->p;
     QL_DIAG_COUNT(context->diag, shadow_rays);
-    if (ql_bvh_occluded(context->scene, &ray)) {
+    if (ql_bvh_occluded(context->scene, &ray) ||
+            !is_met(context, ray.origin, ray.direction, light)) {
         return;
     }
     g = geometry(surface, weight, ray.direction, (uint64_t)cos_n, cos_light);
@@ -82,7 +102,8 @@ static bool is_free(const ql_context_t *context, ql_vec3_t origin,
     QL_DIAG_COUNT(context->diag, shadow_rays);
     ray.direction = ql_vec_sub(sample->to, origin);
     return !ql_bvh_occluded_but(
-            scene, &ray, QL_LE16(scene->lights[light].triangle));
+                   scene, &ray, QL_LE16(scene->lights[light].triangle)) &&
+           is_met(context, origin, ray.direction, light);
 }
 
 static void sample_direction(const ql_context_t *context,

@@ -89,7 +89,8 @@ QL_INLINE const ql_blob_material_t *ql_scene_material(
  *   ql_scene_sky      light from all around; black without
  *   ql_scene_texels   the map of the sky, which is constant without
  *   ql_scene_lens     the lens of the camera, a pinhole without
- *   ql_scene_contacts what touches; nothing does without */
+ *   ql_scene_contacts what touches; nothing does without
+ *   ql_scene_ranks    which counts of surfaces in one place */
 #if QL_CFG_SMOOTH
 QL_INLINE const ql_blob_normal_t *ql_scene_normals(const ql_scene_t *scene)
 {
@@ -170,6 +171,19 @@ QL_INLINE const uint16_t *ql_scene_contacts(const ql_scene_t *scene)
 }
 #else
 QL_INLINE const uint16_t *ql_scene_contacts(const ql_scene_t *scene)
+{
+    (void)scene;
+    return NULL;
+}
+#endif
+
+#if QL_CFG_ORDER
+QL_INLINE const uint16_t *ql_scene_ranks(const ql_scene_t *scene)
+{
+    return scene->ranks;
+}
+#else
+QL_INLINE const uint16_t *ql_scene_ranks(const ql_scene_t *scene)
 {
     (void)scene;
     return NULL;

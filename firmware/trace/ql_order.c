@@ -36,10 +36,13 @@ bool ql_order_is_before_exactly(
     if (x.high != y.high || x.low != y.low) {
         return x.high < y.high || (x.high == y.high && x.low < y.low);
     }
+    if (a->front != b->front) {
+        return a->front;
+    }
     if (rank != other) {
         return rank < other;
     }
-    return a->front != b->front ? a->front : a->tri_idx < b->tri_idx;
+    return a->tri_idx < b->tri_idx;
 }
 
 #endif

@@ -3,10 +3,10 @@
 
 /* Ray parameters are rounded, so of two surfaces in one place the one or the
  * other would be hit, as rounding has it. Where a scene has such surfaces, hits
- * within rounding are compared as the fractions that they are, and of equals
- * the rank decides that the scene gives them: their order in its file. Two
- * triangles with the same corners, wound against each other, have one rank: the
- * one counts whose front is seen. */
+ * within rounding are compared as the fractions that they are. Of equals one
+ * whose front is seen comes before one seen from behind, so a sheet of two
+ * faces wound against each other shows each from its front; then the rank
+ * decides that the scene gives them, their order in its file. */
 
 #ifndef QL_ORDER_H
 #define QL_ORDER_H
@@ -33,8 +33,8 @@ QL_INLINE void ql_order_keep(ql_hit_t *hit, uint64_t t, uint64_t det)
     hit->exact_det = det;
 }
 
-/* Is hit a before hit b? By their fractions, then by their ranks, by the side
- * that is seen, by their indices.
+/* Is hit a before hit b? By their fractions, then by the side that is seen, by
+ * their ranks, by their indices.
  *
  *   scene  -  has ranks
  *   a, b   -  with their fractions

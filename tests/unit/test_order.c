@@ -201,7 +201,6 @@ TEST(of_two_backs_the_front_is_met)
         (void)mini_material(&mini, 0.5, 0);
         mini_triangle(&mini, v[0], v[1 + i], v[2 - i], 0);
         mini_triangle(&mini, v[0], v[2 - i], v[1 + i], 0);
-        mini.triangles[1].rank = 0;
         mini_open(&mini, &scene);
         state = 59;
         for (long k = 0; k < MANY(2000); k++) {

@@ -183,6 +183,14 @@ static void ask(path_t *path, uint32_t dim, const vertex_t *v, uint32_t light)
         path->stats->shadow_rays++;
     }
     blocked = ref_blocked(path->scene, &ray, aim.distance, aim.shape);
+    if (!blocked && path->scene->blob->ranks != NULL &&
+            aim.shape != REF_NOWHERE) {
+        ref_hit_t hit; /* another may be in its place */
+
+        path->stats->closest_rays++;
+        blocked =
+                !ref_closest(path->scene, &ray, &hit) || hit.shape != aim.shape;
+    }
     tell(path, blocked);
     if (!blocked) {
         reflect(path, v, &aim,

@@ -120,11 +120,11 @@ static bool is_first(
         const uint16_t rank = QL_LE16(ranks[a->shape]);
         const uint16_t other = QL_LE16(ranks[b->shape]);
 
-        if (rank != other) {
-            return rank < other;
-        }
         if (a->front != b->front) {
             return a->front;
+        }
+        if (rank != other) {
+            return rank < other;
         }
     }
     return a->shape < b->shape;

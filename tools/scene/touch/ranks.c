@@ -78,25 +78,6 @@ static bool do_overlap(
            !is_beyond(grid, b, m, axis, a);
 }
 
-/* Have two triangles the same corners? They are not in the same order, as one
- * of such two was dropped. */
-static bool are_backs(
-        const grid_t *grid, const grid_face_t *a, const grid_face_t *b)
-{
-    for (int i = 0; i < 3; i++) {
-        bool has = false;
-
-        for (int j = 0; j < 3; j++) {
-            has = has || memcmp(corner(grid, a, i), corner(grid, b, j),
-                                 sizeof *grid->vertices) == 0;
-        }
-        if (!has) {
-            return false;
-        }
-    }
-    return true;
-}
-
 static bool are_equal_spheres(
         const grid_t *grid, const grid_face_t *a, const grid_face_t *b)
 {
@@ -104,12 +85,11 @@ static bool are_equal_spheres(
                    sizeof *grid->spheres) == 0;
 }
 
-/* The rank of a face; sets overlaps if it shares its place with another. */
-static uint16_t rank_of(
-        const grid_t *grid, const bvh_t *bvh, uint32_t index, bool *overlaps)
+/* Does a face share its place with another? */
+static bool overlaps_any(
+        const grid_t *grid, const bvh_t *bvh, const grid_face_t *face)
 {
-    const grid_face_t *face = grid->faces + index, *other;
-    uint32_t rank = index;
+    const grid_face_t *other;
     around_t walk;
 
     around_begin(&walk, grid, bvh, box_around(grid, face, 0));
@@ -117,31 +97,27 @@ static uint16_t rank_of(
         if (other == face || (other->sphere != 0) != (face->sphere != 0)) {
             continue;
         }
-        if (face->sphere != 0) {
-            *overlaps = *overlaps || are_equal_spheres(grid, face, other);
-        } else if (do_overlap(grid, face, other)) {
-            const uint32_t its = (uint32_t)(other - grid->faces);
-
-            *overlaps = true;
-            if (its < rank && are_backs(grid, face, other)) {
-                rank = its;
-            }
+        if (face->sphere != 0 ? are_equal_spheres(grid, face, other)
+                              : do_overlap(grid, face, other)) {
+            return true;
         }
     }
-    return (uint16_t)rank; /* of 65,535 faces at most */
+    return false;
 }
 
 uint16_t *ranks_find(const grid_t *grid, const bvh_t *bvh)
 {
-    uint16_t *ranks = cli_alloc(grid->face_count, sizeof *ranks);
+    uint16_t *ranks = NULL;
     bool overlaps = false;
 
-    for (uint32_t i = 0; i < grid->face_count; i++) {
-        ranks[i] = rank_of(grid, bvh, bvh->order[i], &overlaps);
+    for (uint32_t i = 0; i < grid->face_count && !overlaps; i++) {
+        overlaps = overlaps_any(grid, bvh, grid->faces + i);
     }
-    if (!overlaps) {
-        free(ranks);
-        return NULL;
+    if (overlaps) {
+        ranks = cli_alloc(grid->face_count, sizeof *ranks);
+        for (uint32_t i = 0; i < grid->face_count; i++) {
+            ranks[i] = (uint16_t)bvh->order[i]; /* 65,535 faces at most */
+        }
     }
     return ranks;
 }

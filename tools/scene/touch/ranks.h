@@ -7,10 +7,8 @@
 #include "scene/mesh/bvh.h"
 #include "scene/mesh/grid.h"
 
-/* Find the rank of each face: of those that a ray meets at once the lowest is
- * the one it meets, and of equal ones the one whose front it sees. It is the
- * face's place in the file; two faces of the same corners in opposite order
- * have the lower of both.
+/* Find the rank of each face, its place in the file: of those that a ray meets
+ * at once it meets the lowest of which it sees the front, or else the lowest.
  *
  *   grid    -  complete
  *   bvh     -  of it
