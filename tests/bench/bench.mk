@@ -56,7 +56,7 @@ PRECISIONS ?= draft fine
 define on_boards
 @for board in $(1); do for precision in $(PRECISIONS); do \
     $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
-        PRECISION=$$precision EMULATED=1 VARIANT=-$(2)-$$precision $(3) \
+        PRECISION=$$precision EMULATED=1 DIAG=1 VARIANT=-$(2)-$$precision $(3) \
         || exit; \
 done; done
 endef
@@ -67,7 +67,7 @@ bench-boards: $O/$(scene).qlb
 	    bench_main,bench_main.c rays/bench_rays.c))
 	@for board in $(BOARDS); do \
 	    $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
-	        EMULATED=1 VARIANT=-bench-float FLOAT=1 OPT=-O2 \
+	        EMULATED=1 DIAG=1 VARIANT=-bench-float FLOAT=1 OPT=-O2 \
 	        $(call bench_main,bench_main.c rays/bench_rays.c rays/float_pt.c) \
 	        > $O/$$board/bench-float || exit; \
 	    grep ' float ' $O/$$board/bench-float; \

@@ -13,7 +13,8 @@
  * no longer means anything. some is check for a build with gates off: what the
  * build lacks is left out, and what it has must have the bits of a build that
  * has everything. update rewrites the lines of this build and keeps the others.
- * bits prints a width of nodes that the build has, tables how it names them.
+ * bits prints a width of nodes that the build has, tables how it names them,
+ * contact the folder of blobs that it opens.
  *
  * Plain C99 and stdio: it runs wherever the core does. Numbers go into a
  * checksum as bytes of fixed order. */
@@ -619,6 +620,9 @@ int main(int argc, char **argv)
 
     if (argc == 2 && strcmp(argv[1], "bits") == 0) {
         return puts(QL_CFG_NODE16 ? "16" : "8") == EOF;
+    }
+    if (argc == 2 && strcmp(argv[1], "contact") == 0) {
+        return puts(QL_CFG_CONTACT ? "" : "bare/") == EOF;
     }
     if (argc == 2 && strcmp(argv[1], "tables") == 0) {
         return puts(TABLES) == EOF;

@@ -7,8 +7,8 @@
 # Writes DIR/16/NAME.qlb and DIR/8/NAME.qlb, the same scene with nodes of both
 # widths: the scenes of tests/scenes, and a corner of a room, once plain and
 # once with each feature alone, so that a build that lacks all others can draw
-# it. DIR/digest.bin is some of them in a row, as tests/matrix/digest_main.c
-# reads them.
+# it. DIR/bare/ has all of them without contacts. DIR/digest.bin is some of them
+# in a row, as tests/matrix/digest_main.c reads them.
 #
 # Example: tests/golden/scenes.sh build/qlux-scene build/golden
 
@@ -112,6 +112,17 @@ END
 corner map << 'END'
 sky corner.pfm rotate 30
 END
+
+# ---- The same without the table of contacts, for builds that have none ----
+
+# Where no point of a picture is near another surface, they draw the same.
+mkdir -p "$dir/bare/16" "$dir/bare/8"
+for blob in "$dir"/16/*.qlb "$dir"/8/*.qlb; do
+    name=${blob#"$dir/"}
+    "$scene" --dump "$blob" | sed '/^c /d; s/^\(features .*\) contact/\1/' \
+        > "$dir/bare/dump.txt"
+    "$scene" "$dir/bare/dump.txt" -o "$dir/bare/$name" --quiet
+done
 
 # ---- In a row, nodes of either width in turn ----
 

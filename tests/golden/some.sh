@@ -22,10 +22,12 @@ for config; do
     suite=golden/$config
     golden=$built/test/$config/golden/golden
     bits=$("$golden" bits) && tables=$("$golden" tables) || bits=
-    set -- "$dir/16/cornell.qlb" "$dir/8/cornell.qlb" "$dir/$bits"/corner-*.qlb
+    from=$dir/$("$golden" contact)
+    set -- "${from}16/cornell.qlb" "${from}8/cornell.qlb" \
+        "$from$bits"/corner-*.qlb
     if [ -z "$tables" ]; then
         for scene in square glossy sky lens smooth strategies; do
-            set -- "$@" "$dir/$bits/$scene.qlb"
+            set -- "$@" "$from$bits/$scene.qlb"
         done
     fi
     said=$("$golden" some tests/golden/checksums.txt "$@" 2>&1)
