@@ -53,7 +53,7 @@ function power(n)
 }
 
 FNR > 1 {
-    name = $3 ($4 > 1 ? ", " $4 " a sample" : "")
+    name = $3 ($4 > 1 ? ", " $4 " rays" : "")
     if (!(name in count))
         names[++series] = name
     n = ++count[name]
