@@ -148,6 +148,11 @@ ql_status_t ql_blob_open(ql_scene_t *scene, const void *blob, size_t size)
     return status;
 }
 
+#define QL_FEATURE_BIT(name, bit, text)                                        \
+    QL_STATIC_ASSERT(name == (uint32_t)1 << (bit), name##_has_its_bit);
+QL_FEATURE_LIST(QL_FEATURE_BIT)
+#undef QL_FEATURE_BIT
+
 const char *ql_blob_missing(const void *blob)
 {
     /* one after the other, each ended by a 0, in the order of their bits */

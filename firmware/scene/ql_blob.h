@@ -46,11 +46,23 @@
     X(QL_FEATURE_CONTACT, 14, "contact")                                       \
     X(QL_FEATURE_ORDER, 15, "order")
 
-enum {
-#define QL_FEATURE_ENUM(name, bit, text) name = 1 << (bit),
-    QL_FEATURE_LIST(QL_FEATURE_ENUM)
-#undef QL_FEATURE_ENUM
-};
+/* They are no enum, because an int may have 16 bits. */
+#define QL_FEATURE_NODE16    ((uint32_t)1 << 0)
+#define QL_FEATURE_NODE8     ((uint32_t)1 << 1)
+#define QL_FEATURE_LIGHTS    ((uint32_t)1 << 2)
+#define QL_FEATURE_TWO_SIDED ((uint32_t)1 << 3)
+#define QL_FEATURE_PAGES     ((uint32_t)1 << 4)
+#define QL_FEATURE_SMOOTH    ((uint32_t)1 << 5)
+#define QL_FEATURE_PHONG     ((uint32_t)1 << 6)
+#define QL_FEATURE_MIRROR    ((uint32_t)1 << 7)
+#define QL_FEATURE_GLASS     ((uint32_t)1 << 8)
+#define QL_FEATURE_SPHERES   ((uint32_t)1 << 9)
+#define QL_FEATURE_SKY       ((uint32_t)1 << 10)
+#define QL_FEATURE_SKY_MAP   ((uint32_t)1 << 11)
+#define QL_FEATURE_TABLES    ((uint32_t)1 << 12)
+#define QL_FEATURE_LENS      ((uint32_t)1 << 13)
+#define QL_FEATURE_CONTACT   ((uint32_t)1 << 14)
+#define QL_FEATURE_ORDER     ((uint32_t)1 << 15)
 
 /* Where one table lies: bytes from the start of the blob, and entries. */
 typedef struct {

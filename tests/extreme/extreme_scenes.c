@@ -13,6 +13,7 @@
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
 #include "trace/ql_bvh.h"
+#include "trace/ql_order.h"
 
 #define RADIANCE 0.5
 
@@ -240,6 +241,14 @@ static uint32_t compile(unsigned node_bits)
 
 static unsigned long hits;
 
+/* Of hits within rounding the exact order decides, which test_order.c tests. */
+static bool is_before(const ql_hit_t *a, const ql_hit_t *b)
+{
+    return ql_order_is_close(&scene, a, b)
+                   ? ql_order_is_before_exactly(&scene, a, b)
+                   : ql_order_is_before_as_rounded(a, b);
+}
+
 /* The tree finds what all triangles one by one do. */
 static void check_rays(uint32_t count, unsigned rays)
 {
@@ -269,7 +278,7 @@ static void check_rays(uint32_t count, unsigned rays)
                     (uint8_t)(3 + (count - k < QL_LEAF_MAX ? count - k
                                                            : QL_LEAF_MAX));
             if (ql_bvh_closest_hit(&leaf, &ray, &one) &&
-                    (!any || one.t < best.t)) {
+                    (!any || is_before(&one, &best))) {
                 best = one;
                 any = true;
             }

@@ -95,17 +95,16 @@ TEST(no_path_leaves_a_closed_room)
 
 TEST(paths_leave_if_nobody_looks_for_contact)
 {
-    count_t all = {0, 0};
+    const room_t *room = rooms;
+    count_t count;
 
-    for (unsigned i = 0; i < room_count; i++) {
-        const count_t count = measure(rooms + i, 16, BLIND, MANY(30000));
-
-        all.rays += count.rays;
-        all.left += count.left;
+    while (strcmp(room->name, "glass") != 0) { /* the one that most leave */
+        room++;
     }
-    CHECK(all.left > 0, "none of %llu", (unsigned long long)all.rays);
-    NOTE("%llu of %llu rays", (unsigned long long)all.left,
-            (unsigned long long)all.rays);
+    count = measure(room, 16, BLIND, MANY(600000));
+    CHECK(count.left > 0, "none of %llu", (unsigned long long)count.rays);
+    NOTE("%llu of %llu rays", (unsigned long long)count.left,
+            (unsigned long long)count.rays);
 }
 
 static void print_table(uint64_t rays, const char *only)
