@@ -128,108 +128,7 @@ say a_file_too_large_is_code_3 $?
 [ $? -eq 3 ] && grep -q big.qls err.txt
 say sums_too_large_are_code_3 $?
 nothing_left a_failed_write_leaves_nothing
-
-# Stopped by a signal, and gone on with to the bits of one run.
-whole="--size 90x60 --spp 300 --quiet"
-"$sim" scene.qlb -o whole.ppm --save-sums whole.qls $whole
-
-# begin FILES ARGUMENT...: start a render and wait until its files are open.
-begin() {
-    files=$1
-    shift
-    "$sim" scene.qlb "$@" 2>err.txt &
-    child=$!
-    until [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq "$files" ] ||
-            ! kill -0 $child 2>/dev/null; do
-        sleep 0.1
-    done
-}
-go_on=' of 300 samples a pixel; go on with --resume part.ppm.qls$'
-for signal in INT TERM; do
-    rm -f part.ppm
-    begin 1 -o part.ppm $whole --threads 1 --progressive
-    until [ -s part.ppm ] || ! kill -0 $child 2>/dev/null; do
-        sleep 0.02
-    done
-    kill -$signal $child
-    wait $child
-    [ $? -eq 3 ] && grep -q "$go_on" err.txt && [ -s part.ppm ]
-    say "a_sig$(echo $signal | tr A-Z a-z)_leaves_what_there_is" $?
-    "$sim" scene.qlb -o part.ppm --save-sums part.qls $whole \
-        --resume part.ppm.qls && cmp -s part.ppm whole.ppm &&
-        cmp -s part.qls whole.qls
-    say "after_a_sig$(echo $signal | tr A-Z a-z)_it_ends_with_the_same_bits" $?
-done
-"$merge" part.ppm.qls -o part.png --quiet && [ -s part.png ]
-say an_interrupted_runs_sums_are_a_part $?
-"$sim" scene.qlb -o part.ppm $whole --rows 20:40 --save-sums rows.qls &&
-    "$sim" scene.qlb -o part.ppm $whole --resume rows.qls --threads 1 &&
-    cmp -s part.ppm whole.ppm
-say rows_are_gone_on_with $?
-"$sim" scene.qlb -o part.ppm $whole --samples 100:200 --save-sums some.qls &&
-    "$sim" scene.qlb --save-sums part.qls $whole --resume some.qls &&
-    cmp -s part.qls whole.qls
-say samples_are_gone_on_with $?
-"$sim" scene.qlb -o part.ppm $whole --resume whole.qls && cmp -s part.ppm \
-    whole.ppm
-say a_complete_run_is_written_again $?
-expect another_seed_is_not_gone_on_with 2 'whole.qls: its seed is 0, but 1' \
-    "$sim" scene.qlb -o a.ppm $whole --resume whole.qls --seed 1
-expect other_samples_are_refused 2 'samples 0:300 are not of this run' \
-    "$sim" scene.qlb -o a.ppm $whole --spp 299 --resume whole.qls
-expect other_rows_are_refused 2 'rows 0:60 samples 0:300 are not of' \
-    "$sim" scene.qlb -o a.ppm $whole --rows 1:60 --resume whole.qls
-head -c 1000 whole.qls >cut.qls
-expect a_damaged_file_is_not_gone_on_with 2 'cut.qls: byte' \
-    "$sim" scene.qlb -o a.ppm $whole --resume cut.qls
-expect a_file_that_is_missing_is_code_3 3 'cannot read no.qls' \
-    "$sim" scene.qlb -o a.ppm $whole --resume no.qls
-for option in '--resume whole.qls' --progressive; do
-    expect "error_with_${option%% *}_is_refused" 1 "'--error' goes with none" \
-        "$sim" scene.qlb -o a.ppm --error 0.1 $option
-done
-expect progress_needs_a_name 1 "'--progressive' needs '-o' with a name" \
-    "$sim" scene.qlb -o - --progressive
-expect progress_needs_a_picture 1 "'--progressive' needs '-o' with a name" \
-    "$sim" scene.qlb --save-sums a.qls --progressive
-
-# Before the first row is finished nothing is there to be written. A row of
-# 16,384 pixels, each with 255 samples of the light, takes seconds.
 echo precious >keep.ppm
-long="--size 16384x16384 --rows 8192:8193 --light-samples 255"
-begin 2 -o keep.ppm --save-sums keep.qls $long
-kill -INT $child
-wait $child
-[ $? -eq 3 ] && [ "$(cat keep.ppm)" = precious ] && [ ! -e keep.qls ] &&
-    [ "$(cat err.txt)" = 'qlux-sim: interrupted; nothing was written' ]
-say a_render_stopped_at_once_keeps_the_old_file $?
-# One pixel that ends by itself: the second signal does not wait for it.
-begin 1 -o keep.ppm --size 1x1 --spp 16777216 --error 0.00001
-kill -INT $child
-sleep 0.1
-kill -INT $child
-wait $child
-[ $? -eq 3 ] && [ "$(cat keep.ppm)" = precious ] &&
-    [ "$(cat err.txt)" = 'qlux-sim: interrupted' ] &&
-    [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
-say a_second_signal_ends_it_at_once $?
-
-# The picture is renewed while it is rendered, and is the same in the end.
-begin 1 -o seen.ppm $whole --size 300x200 --progressive --threads 1
-until [ -s seen.ppm ] || ! kill -0 $child 2>/dev/null; do
-    sleep 0.02
-done
-cp seen.ppm first.ppm
-kill -0 $child 2>/dev/null
-running=$?
-kill -INT $child
-wait $child
-[ $running -eq 0 ] && [ "$(head -n 2 first.ppm | tail -n 1)" = '300 200' ] &&
-    ! cmp -s first.ppm seen.ppm
-say the_picture_is_renewed_while_it_is_rendered $?
-"$sim" scene.qlb -o seen.ppm $whole --progressive && cmp -s seen.ppm whole.ppm
-say a_renewed_picture_ends_with_the_same_bits $?
-rm -f whole.* part.* rows.qls some.qls cut.qls seen.* first.ppm
 "$sim" scene.qlb -o keep.ppm $small && head -c 2 keep.ppm | grep -q P6
 say a_finished_render_replaces_it $?
 echo old >kept.ppm
@@ -241,7 +140,7 @@ say a_link_goes_on_leading_to_what_is_written $?
 [ "$(ls -l kept.ppm | cut -c 1-10)" = -rw-r----- ]
 say what_is_written_again_keeps_its_permissions $?
 rm keep.ppm kept.ppm keep.png.ppm
-nothing_left a_stopped_render_leaves_nothing
+nothing_left a_render_leaves_nothing_else
 
 # The same bits
 same() { # claim, files
@@ -486,5 +385,107 @@ same default_format_is_rgb888 whole.ppm rgb888.ppm
 same byte_order_shows_the_same_picture rgb565le.ppm rgb565be.ppm
 ! cmp -s rgb888.ppm rgb565le.ppm && ! cmp -s gray8.ppm gray4.ppm
 say formats_differ_otherwise $?
+
+# Stopped by a signal, and gone on with to the bits of one run.
+whole="--size 64x48 --spp 200 --quiet"
+"$sim" scene.qlb -o whole.ppm --save-sums whole.qls $whole
+
+# begin FILES ARGUMENT...: start a render and wait until its files are open.
+begin() {
+    files=$1
+    shift
+    "$sim" scene.qlb "$@" 2>err.txt &
+    child=$!
+    until [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq "$files" ] ||
+            ! kill -0 $child 2>/dev/null; do
+        sleep 0.1
+    done
+}
+go_on=' of 200 samples a pixel; go on with --resume part.ppm.qls$'
+for signal in INT TERM; do
+    rm -f part.ppm
+    begin 1 -o part.ppm $whole --threads 1 --progressive
+    until [ -s part.ppm ] || ! kill -0 $child 2>/dev/null; do
+        sleep 0.02
+    done
+    kill -$signal $child
+    wait $child
+    [ $? -eq 3 ] && grep -q "$go_on" err.txt && [ -s part.ppm ]
+    say "a_sig$(echo $signal | tr A-Z a-z)_leaves_what_there_is" $?
+    "$sim" scene.qlb -o part.ppm --save-sums part.qls $whole \
+        --resume part.ppm.qls && cmp -s part.ppm whole.ppm &&
+        cmp -s part.qls whole.qls
+    say "after_a_sig$(echo $signal | tr A-Z a-z)_it_ends_with_the_same_bits" $?
+done
+"$merge" part.ppm.qls -o part.png --quiet && [ -s part.png ]
+say an_interrupted_runs_sums_are_a_part $?
+"$sim" scene.qlb -o part.ppm $whole --rows 20:40 --save-sums rows.qls &&
+    "$sim" scene.qlb -o part.ppm $whole --resume rows.qls --threads 1 &&
+    cmp -s part.ppm whole.ppm
+say rows_are_gone_on_with $?
+"$sim" scene.qlb -o part.ppm $whole --samples 100:150 --save-sums some.qls &&
+    "$sim" scene.qlb --save-sums part.qls $whole --resume some.qls &&
+    cmp -s part.qls whole.qls
+say samples_are_gone_on_with $?
+"$sim" scene.qlb -o part.ppm $whole --resume whole.qls && cmp -s part.ppm \
+    whole.ppm
+say a_complete_run_is_written_again $?
+expect another_seed_is_not_gone_on_with 2 'whole.qls: its seed is 0, but 1' \
+    "$sim" scene.qlb -o a.ppm $whole --resume whole.qls --seed 1
+expect other_samples_are_refused 2 'samples 0:200 are not of this run' \
+    "$sim" scene.qlb -o a.ppm $whole --spp 199 --resume whole.qls
+expect other_rows_are_refused 2 'rows 0:48 samples 0:200 are not of' \
+    "$sim" scene.qlb -o a.ppm $whole --rows 1:48 --resume whole.qls
+head -c 1000 whole.qls >cut.qls
+expect a_damaged_file_is_not_gone_on_with 2 'cut.qls: byte' \
+    "$sim" scene.qlb -o a.ppm $whole --resume cut.qls
+expect a_file_that_is_missing_is_code_3 3 'cannot read no.qls' \
+    "$sim" scene.qlb -o a.ppm $whole --resume no.qls
+for option in '--resume whole.qls' --progressive; do
+    expect "error_with_${option%% *}_is_refused" 1 "'--error' goes with none" \
+        "$sim" scene.qlb -o a.ppm --error 0.1 $option
+done
+expect progress_needs_a_name 1 "'--progressive' needs '-o' with a name" \
+    "$sim" scene.qlb -o - --progressive
+expect progress_needs_a_picture 1 "'--progressive' needs '-o' with a name" \
+    "$sim" scene.qlb --save-sums a.qls --progressive
+
+# Before the first row is finished nothing is there to be written. A row of
+# 16,384 pixels, each with 255 samples of the light, takes seconds.
+echo precious >keep.ppm
+long="--size 16384x16384 --rows 8192:8193 --light-samples 255"
+begin 2 -o keep.ppm --save-sums keep.qls $long
+kill -INT $child
+wait $child
+[ $? -eq 3 ] && [ "$(cat keep.ppm)" = precious ] && [ ! -e keep.qls ] &&
+    [ "$(cat err.txt)" = 'qlux-sim: interrupted; nothing was written' ]
+say a_render_stopped_at_once_keeps_the_old_file $?
+# One pixel that ends by itself: the second signal does not wait for it.
+begin 1 -o keep.ppm --size 1x1 --spp 16777216 --error 0.00001
+kill -INT $child
+sleep 0.1
+kill -INT $child
+wait $child
+[ $? -eq 3 ] && [ "$(cat keep.ppm)" = precious ] &&
+    [ "$(cat err.txt)" = 'qlux-sim: interrupted' ] &&
+    [ "$(ls ./*.tmp 2>/dev/null | wc -l)" -eq 0 ]
+say a_second_signal_ends_it_at_once $?
+
+# The picture is renewed while it is rendered, and is the same in the end.
+begin 1 -o seen.ppm $whole --size 300x200 --progressive --threads 1
+until [ -s seen.ppm ] || ! kill -0 $child 2>/dev/null; do
+    sleep 0.02
+done
+cp seen.ppm first.ppm
+kill -0 $child 2>/dev/null
+running=$?
+kill -INT $child
+wait $child
+[ $running -eq 0 ] && [ "$(head -n 2 first.ppm | tail -n 1)" = '300 200' ] &&
+    ! cmp -s first.ppm seen.ppm
+say the_picture_is_renewed_while_it_is_rendered $?
+"$sim" scene.qlb -o seen.ppm $whole --progressive && cmp -s seen.ppm whole.ppm
+say a_renewed_picture_ends_with_the_same_bits $?
+rm -f keep.ppm whole.* part.* rows.qls some.qls cut.qls seen.* first.ppm
 
 exit $((failures != 0))
