@@ -117,8 +117,8 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/lines|tests/tools/scene/test_lines.sh; \
     tools/info|tests/tools/scene/test_info.sh; \
     tools/sky|tests/tools/scene/test_sky.sh; \
-    tools/readers    tools/faces|tests/tools/faces/test_faces.sh; \
-|tests/tools/foreign/test_readers.sh; \
+    tools/faces|tests/tools/faces/test_faces.sh; \
+    tools/readers|tests/tools/foreign/test_readers.sh; \
     tools/lut|tests/tools/test_lut.sh; \
     tools/warp|tests/tools/test_warp.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \

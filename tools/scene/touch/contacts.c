@@ -137,6 +137,24 @@ static int cut(point_t *points, int count, int which, int sign, soft_t limit)
     return left;
 }
 
+/* Are all corners beyond an edge, or above, or below? Nearly all are. */
+static bool is_far(const viewer_t *v, const sight_t seen[3])
+{
+    const int64_t high = v->near[FRONT]; /* and each sight is below 2^49 */
+    bool above = true, below = true;
+
+    for (int i = 0; i < 3; i++) {
+        if (2 * seen[0].of[i] <= v->near[i] &&
+                2 * seen[1].of[i] <= v->near[i] &&
+                2 * seen[2].of[i] <= v->near[i]) {
+            return true;
+        }
+        above = above && 2 * seen[i].of[FRONT] > high;
+        below = below && 2 * seen[i].of[FRONT] < -high;
+    }
+    return above || below;
+}
+
 /* Is a part of a triangle near the inside of another? */
 static bool is_near(const viewer_t *v, const sight_t seen[3])
 {
@@ -144,12 +162,8 @@ static bool is_near(const viewer_t *v, const sight_t seen[3])
     point_t points[POINTS_MAX];
     int count = 3;
 
-    for (int i = 0; i < 3; i++) {
-        if (2 * seen[0].of[i] <= v->near[i] &&
-                2 * seen[1].of[i] <= v->near[i] &&
-                2 * seen[2].of[i] <= v->near[i]) {
-            return false; /* nearly all of them */
-        }
+    if (is_far(v, seen)) {
+        return false;
     }
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < SIGHTS; k++) {
@@ -239,13 +253,13 @@ static void look_at_triangle(search_t *s, const grid_face_t *other)
 
 static void look_at(search_t *s, const grid_face_t *other)
 {
-    const box_t box = box_around(s->grid, other, REACH);
-
     if (other == s->face) {
         return;
     }
     if (s->face->sphere != 0) {
         /* whether the other comes near this sphere */
+        const box_t box = box_around(s->grid, other, REACH);
+
         if (is_crossed(&box, s->grid->spheres + s->face->sphere - 1)) {
             s->touches = s->marked = true;
         }
