@@ -228,7 +228,40 @@ static ql_vec3_t near_edge(void)
             (int32_t)lrint((a.z + t * (b.z - a.z)) * ONE) + random_in(-3, 3));
 }
 
-/* How many points are behind a side of their wedge. */
+/* Does the way from o to p, behind a triangle, go through it? Not if it goes
+ * around it, as a way along its plane may. */
+static bool goes_through(
+        ql_vec3_t a, ql_vec3_t b, ql_vec3_t c, ql_vec3_t o, ql_vec3_t p)
+{
+    const ql_vec3_t corner[3] = {a, b, c};
+    const double before = (double)side(a, b, c, o);
+    const double after = (double)side(a, b, c, p);
+    const double part = before / (before - after);
+    const double at[3] = {o.x + part * (p.x - o.x), o.y + part * (p.y - o.y),
+            o.z + part * (p.z - o.z)};
+    const ql_vec3_t n = ql_vec_cross(ql_vec_sub(b, a), ql_vec_sub(c, a));
+
+    if (after > 0) {
+        return false;
+    }
+    for (unsigned i = 0; i < 3; i++) {
+        const ql_vec3_t from = corner[i], to = corner[(i + 1) % 3];
+        const double e[3] = {(double)to.x - from.x, (double)to.y - from.y,
+                (double)to.z - from.z};
+        const double s[3] = {at[0] - (double)from.x * ONE,
+                at[1] - (double)from.y * ONE, at[2] - (double)from.z * ONE};
+
+        if (n.x * (e[1] * s[2] - e[2] * s[1]) +
+                        n.y * (e[2] * s[0] - e[0] * s[2]) +
+                        n.z * (e[0] * s[1] - e[1] * s[0]) <
+                0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* How many points are behind a side of their wedge, through it. */
 static unsigned long behind(bool contact, unsigned long *hits)
 {
     unsigned long count = 0;
@@ -258,8 +291,10 @@ static unsigned long behind(bool contact, unsigned long *hits)
             }
             ql_surface_at(&scene, &ray, &hit, &surface);
             (*hits)++;
-            count += side(wedge[0], wedge[1], wedge[2], surface.p) <= 0 ||
-                     side(wedge[1], wedge[0], wedge[3], surface.p) <= 0;
+            count += goes_through(wedge[0], wedge[1], wedge[2], ray.origin,
+                             surface.p) ||
+                     goes_through(wedge[1], wedge[0], wedge[3], ray.origin,
+                             surface.p);
         }
     }
     return count;
