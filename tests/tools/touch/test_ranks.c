@@ -98,11 +98,39 @@ TEST(the_back_of_a_face_has_ranks)
     forget(&world);
 }
 
+static void add_sphere(world_t *world, double x, double radius)
+{
+    world_sphere_t *sphere = world_add_sphere(world);
+
+    sphere->centre[0] = x;
+    sphere->radius = radius;
+}
+
+/* Two in one place, or as large ones beside each other and one in another. */
+TEST(spheres_in_one_place_have_ranks_and_others_none)
+{
+    for (int equal = 0; equal < 2; equal++) {
+        world_t world;
+
+        open_world(&world);
+        add_sphere(&world, 0, 1);
+        add_sphere(&world, 3, 1);
+        add_sphere(&world, 3, equal ? 1 : 0.5);
+        find(&world, 4);
+        CHECK((ranks != NULL) == equal, "%d: ranks %d", equal, ranks != NULL);
+        for (uint32_t f = 0; f < 3 && ranks != NULL; f++) {
+            CHECK(rank_of(f) == f, "sphere %u: rank %u", f, rank_of(f));
+        }
+        forget(&world);
+    }
+}
+
 int main(int argc, char **argv)
 {
     TEST_BEGIN("tools/ranks", argc, argv);
     RUN(what_only_meets_at_edges_has_no_ranks);
     RUN(what_overlaps_has_its_place_in_the_file_in_any_tree);
     RUN(the_back_of_a_face_has_ranks);
+    RUN(spheres_in_one_place_have_ranks_and_others_none);
     return TEST_END();
 }
