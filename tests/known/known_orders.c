@@ -30,9 +30,9 @@
 #include "qlux.h"
 
 #define RADIANCE 0.5
-#define LIMIT    0.13 /* of RADIANCE: about 6 standard errors; see teeth */
+#define LIMIT    0.13 /* of RADIANCE: 8 standard errors and more; see teeth */
 
-enum { SAMPLES = 256, PLATES = 3, CENTRE = 16384 };
+enum { SAMPLES = 512, PLATES = 3, CENTRE = 16384 };
 
 /* What a plate is made of, and how much of the light each lobe sends on. */
 enum { WALL, MIRROR, GLASS, MIXED, KINDS };
