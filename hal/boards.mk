@@ -15,7 +15,8 @@
 #   BOARD_SPP    and samples a pixel
 #   BOARD_PANEL  format of the panel, if there is one
 #   BOARD_QEMU   the emulator
-#   BOARD_FLASH  how to load a real board: $elf, $hex, $bin
+#   BOARD_FLASH  the program that loads a real board, with $elf, $hex, $bin
+#   BOARD_DRAG   how to load it without one, as a person would be told
 #
 # tools/dev/variables.txt has the variables that choose picture and firmware.
 # What the choice does not need is not built in: board_gates has the gates.
@@ -33,9 +34,11 @@ BOARD_MAIN ?= hal/ql_main.c
 board_tags := $(if $(filter 1,$(SMALL)),small)
 board_tags += $(if $(filter 0,$(board_indirect)),direct)
 board_rows := $(strip $(BOARD) $(scene) $(board_tags))
-board_tags += $(if $(filter 1,$(EMULATED)),emulated)
-board_name := $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
-    -,$(board_tags)))$(VARIANT)
+board_called = $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
+    -,$(board_tags) $1))$(VARIANT)
+board_name := $(call board_called,$(if $(filter 1,$(EMULATED)),emulated))
+# How many instructions the emulator has counted.
+board_count := $(call board_called,emulated).count
 
 # The core is one file, its layers in their order.
 board_src := $(or $(FIRMWARE_SRC),firmware/qlux.c $(sort $(wildcard \
@@ -99,7 +102,11 @@ $(eval $(call board_objects,$(board_own),$(board_cc_main)))
 $(call flags,$(subst /,-,$(board_own)).elf,$(board_ld) $(board_obj))
 
 firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
-	$(if $(silent),,@echo $<)
+	$(if $(silent),,@$(board_report))
+
+# What it takes, and how long, if make run has counted the instructions.
+board_report = tools/dev/firmware_report.sh $(board_name) $(BOARD) \
+    $(BOARD_CROSS)size $(board_count)
 
 $(board_name)/%.S.o: %.S $(call board_flags,$(board_own)) $(BLOB).qlb
 	$(call step,AS,$<)mkdir -p $(@D) && $(BOARD_CROSS)gcc $(BOARD_CPU) -c $< \
@@ -117,13 +124,15 @@ $(board_name).bin: $(board_name).elf
 
 flash: firmware ## Load SCENE onto a real BOARD
 	$(call step,FLASH,$(BOARD))elf=$(board_name).elf \
-	    bin=$(board_name).bin hex=$(board_name).hex; $(BOARD_FLASH)
+	    bin=$(board_name).bin hex=$(board_name).hex; \
+	    tools/dev/flash.sh "$(BOARD_DRAG)" $(BOARD_FLASH)
 
 board_picture := $O/$(scene)-$(BOARD)
 
 run-emulated: $(board_name).elf $O/qlux-recv
 	$(call step,RUN,$(board_picture).ppm)tools/dev/run_board.sh $(or \
-	    $(if $(QUIET),--quiet),$(quiet)) $< $(board_picture).ppm $(BOARD_QEMU)
+	    $(if $(QUIET),--quiet),$(quiet)) --count $(board_count) \
+	    $< $(board_picture).ppm $(BOARD_QEMU)
 	$(if $(silent),,@echo $(board_picture).ppm)
 
 # What the simulator makes of the same choice; to compare with the board's.
@@ -151,7 +160,9 @@ firmware flash run-emulated size-board test-stack:
 endif
 
 run-board: ## Render SCENE on an emulated BOARD
+run-board: $(if $(BOARD),$(board_name).hex $(board_name).bin)
 	@$(MAKE) --no-print-directory run-emulated EMULATED=1
+	$(if $(silent),,@$(board_report))
 
 size: ## Flash, RAM and stack of SCENE on BOARD, or on every board
 	@for board in $(or $(BOARD),$(BOARDS)); do \

@@ -9,7 +9,9 @@
 #define QL_PORT_EMULATED 0
 #endif
 
-/* How fast ql_hal_ticks() counts. */
+/* The CPU's clock, by which make says how long a picture takes at least, and
+ * how fast ql_hal_ticks() counts. */
+#define QL_PORT_CPU_HZ  16000000ul
 #define QL_PORT_TICK_HZ 1000000ul
 
 /* The panel: all 0 without one. Sizes the line buffer at compile time. */

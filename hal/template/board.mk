@@ -14,6 +14,7 @@ BOARD_SIZE := 64x64
 BOARD_SPP := 4
 # With a panel: BOARD_PANEL := its format (rgb565-be, gray4, ..), as in board.h.
 # BOARD_LTO := 1 for link-time optimisation.
-# The emulator, and how to load a real board ($elf, $hex, $bin).
+# The emulator, and how to load a real board ($elf, $hex, $bin): BOARD_FLASH is
+# a program and its arguments, BOARD_DRAG says how it goes without one.
 BOARD_QEMU := false
 BOARD_FLASH := false

@@ -16,7 +16,7 @@ make=${MAKE:-make}
 build=${BUILD:-build}
 mkdir -p "$build/fail"
 log=$(mktemp) || exit 3
-trap 'rm -f "$log"' EXIT
+trap 'rm -f "$log" "$log.plain"' EXIT
 
 # check BOARD CLAIM COMMAND...: run it, say one line; its output on a failure.
 check() {
@@ -44,7 +44,8 @@ choose() {
 same() {
     picture=$build/$SCENE-$1
     rm -f "$picture.ppm" "$picture-sim.ppm"
-    choose "$@" run-board QUIET=1 && choose "$@" "$picture-sim.ppm" || return
+    choose "$@" run-emulated EMULATED=1 QUIET=1 &&
+        choose "$@" "$picture-sim.ppm" || return
     instructions=$(sed -n "s/^instructions: //p" "$log")
     paths=$(sed -n "s/^paths: //p" "$log")
     note="$instructions instructions"
@@ -63,6 +64,21 @@ scene() {
     result=$?
     SCENE=$default_scene
     return $result
+}
+
+# takes BOARD: the end of make firmware has what the picture just rendered took,
+# and no longer once the firmware is another.
+takes() {
+    choose "$1" firmware && tr -d , <"$log" >"$log.plain" || return
+    count=$(cat "$build/$1/$SCENE-emulated.count")
+    note=$(sed -n 's/^\(at least .*\) (.*/\1/p' "$log")
+    grep -q "^at least [0-9.]* s at [0-9.]* MHz ($count counted" \
+        "$log.plain" || return
+    size=$("$(of_board "$1" CROSS)size" -A "$build/$1/$SCENE.elf" |
+        awk '/^\.(text|rodata|data) / { n += $2 } END { print n }')
+    grep -q "^$build/$1/$SCENE.hex: flash $size of" "$log.plain" || return
+    touch "$build/$1/$SCENE.elf" && choose "$1" firmware >"$log" &&
+        grep -q "^make run BOARD=$1 counts" "$log"
 }
 
 # panel BOARD [VARIABLE=value...]: the real board's firmware, and what it shows.
@@ -156,6 +172,8 @@ esac
 for board; do
     [ "$board" != template ] || continue
     check "$board" draft_picture_is_the_simulators same "$board"
+    [ "$board" != lm3s6965evb ] ||
+        check "$board" a_firmware_says_what_it_takes takes "$board"
     check "$board" other_settings_compile_main_alone shares "$board"
     check "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
     check "$board" interlaced_picture_is_the_same \

@@ -223,6 +223,23 @@ say the_tree_itself_for_O_is_refused $?
 (cd "$tree" && "$make" firmware "O=$out") >"$work/said" 2>&1
 [ $? -ne 0 ] && grep -q 'name a board: BOARD= one of' "$work/said"
 say a_firmware_without_a_board_asks_for_one $?
+build -n flash BOARD=microbit
+grep -q 'flash.sh "copy $hex to the drive MICROBIT" pyocd ' "$work/said"
+say make_flash_knows_the_tool_of_a_board_and_how_to_do_without $?
+# loads WORD...: flash.sh with them; leaves its status and what it said.
+loads() {
+    tools/dev/flash.sh "$@" >"$work/said" 2>"$work/errors"
+    echo $? >>"$work/said"
+}
+loads 'copy it' no-such-tool 1
+[ "$(cat "$work/said")" = 3 ] && [ "$(cat "$work/errors")" = "flash.sh: \
+no-such-tool is not installed: sudo apt install no-such-tool; or copy it" ]
+say a_tool_that_is_not_installed_is_named_with_how_to_get_it $?
+loads 'copy it' && [ "$(paste -s "$work/said")" = 'copy it	0' ]
+say a_board_that_needs_no_tool_is_loaded_as_said $?
+loads 'copy it' sh -c 'echo loaded "$1"; exit 7' sh 'a b'
+[ "$(paste -s "$work/said")" = 'loaded a b	7' ]
+say a_tool_gets_its_words_and_ends_as_it_does $?
 (cd "$tree" && "$make" help "O=$out") >"$work/said" 2>&1
 [ $? -eq 0 ] && grep -q '^  SPP=64 ' "$work/said" &&
     grep -q '^  firmware  ' "$work/said"

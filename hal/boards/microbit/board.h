@@ -8,9 +8,10 @@
 #define QL_PORT_EMULATED 0
 #endif
 
-/* TIMER0 counts the 16 MHz clock. Under QEMU's -icount shift=0 an instruction
+/* TIMER0 counts the CPU's clock. Under QEMU's -icount shift=0 an instruction
  * takes 1 ns, so a tick is 62.5 instructions. */
-#define QL_PORT_TICK_HZ 16000000ul
+#define QL_PORT_CPU_HZ  16000000ul
+#define QL_PORT_TICK_HZ QL_PORT_CPU_HZ
 
 /* The 5x5 LEDs show no picture. */
 #define QL_PORT_PANEL_WIDTH  0

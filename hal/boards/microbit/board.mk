@@ -11,4 +11,5 @@ BOARD_STACK := 3072
 BOARD_SIZE := 64x64
 BOARD_SPP := 4
 BOARD_QEMU := qemu-system-arm -M microbit
+BOARD_DRAG := copy $$hex to the drive MICROBIT
 BOARD_FLASH := pyocd flash -t nrf51 $$elf

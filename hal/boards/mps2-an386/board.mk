@@ -10,4 +10,4 @@ BOARD_STACK := 3072
 BOARD_SIZE := 64x64
 BOARD_SPP := 16
 BOARD_QEMU := qemu-system-arm -M mps2-an386
-BOARD_FLASH := echo "copy $$bin to the board's USB drive, see its README.md"
+BOARD_DRAG := copy $$bin to its USB drive as its README.md says
