@@ -80,14 +80,14 @@ table back.csv a,base,0.5,10000 a,base,0.5,90000 a,base,0.5,40000
 grep 'stroke-width="2.2"' back.svg | grep -q 'd="M[^L]*L[^L]*L[^L]*"/>'
 say a_line_that_turns_back_keeps_its_turn $?
 
-# The picture of the README, and its table, are of the numbers beside it.
+# The picture of the READMEs, and their table, are of the numbers beside it.
 "$trade" "$root/tools/trade/trade.csv" -o drawn.svg >said.txt &&
     cmp -s drawn.svg "$root/tools/trade/trade.svg"
 say the_drawing_kept_is_that_of_the_table_kept $?
 awk '/ on /{ on = / cortex-m3$/ } on && / M instructions/ {
         sub(/ M instr.*/, ""); print $NF ": " }' said.txt >numbers.txt
 [ "$(wc -l <numbers.txt)" -eq 9 ] && while read -r number; do
-    grep -q "| $number " "$root/README.md" || echo "$number" >>lacking.txt
+    grep -q "| $number " "$root/tools/README.md" || echo "$number" >>lacking.txt
 done <numbers.txt
 [ ! -e lacking.txt ]
 say the_readme_recommends_what_the_table_does $?
