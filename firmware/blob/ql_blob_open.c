@@ -4,6 +4,7 @@
 #include "blob/ql_blob_open.h"
 
 #include "base/ql_crc.h"
+#include "base/ql_settings.h"
 #include "blob/ql_blob_parts.h"
 
 /* Features of this build. */
@@ -95,7 +96,9 @@ static bool header_in_range(const ql_blob_header_t *h)
 
     return node16 != node8 && radiance >= -64 && radiance <= 64 && width >= 1 &&
            width <= QL_IMAGE_MAX && height >= 1 && height <= QL_IMAGE_MAX &&
-           QL_LE16(h->root_meta) <= 3 + QL_LEAF_MAX;
+           QL_LE16(h->root_meta) <= 3 + QL_LEAF_MAX &&
+           h->auto_direct <= QL_DIRECT_MIS &&
+           h->auto_lights <= QL_LIGHTS_UNIFORM;
 }
 
 /* The optional tables, in the order of QL_BLOB_OPTIONAL_LIST. */

@@ -11,7 +11,7 @@
 #include "base/ql_base.h"
 
 #define QL_BLOB_MAGIC    0x58554c51u /* the bytes "QLUX" */
-#define QL_BLOB_VERSION  1u
+#define QL_BLOB_VERSION  2u
 #define QL_BLOB_CRC_FROM 16u /* the CRC covers [16, size_bytes) */
 
 /* Limits of the format. */
@@ -64,6 +64,18 @@
 #define QL_FEATURE_CONTACT   ((uint32_t)1 << 14)
 #define QL_FEATURE_ORDER     ((uint32_t)1 << 15)
 
+/* The ways of finding light that qlux-scene chooses from, in the order of
+ * trials. A trial is 16 log2 of variance times instructions over the best's. */
+#define QL_TRIAL_MOST 254u /* that or more */
+#define QL_TRIAL_NONE 255u /* not tried */
+#define QL_BLOB_TRIALS(TRIAL)                                                  \
+    TRIAL(QL_DIRECT_AREA, QL_LIGHTS_POWER)                                     \
+    TRIAL(QL_DIRECT_AREA, QL_LIGHTS_ALL)                                       \
+    TRIAL(QL_DIRECT_SOLID_ANGLE, QL_LIGHTS_POWER)                              \
+    TRIAL(QL_DIRECT_SOLID_ANGLE, QL_LIGHTS_ALL)                                \
+    TRIAL(QL_DIRECT_MIS, QL_LIGHTS_POWER)                                      \
+    TRIAL(QL_DIRECT_MIS, QL_LIGHTS_ALL)
+
 /* Where one table lies: bytes from the start of the blob, and entries. */
 typedef struct {
     uint32_t offset;
@@ -86,6 +98,9 @@ typedef struct {
     uint16_t image_height;
     int16_t unit_exp;       /* one grid unit is unit_m * 2^unit_exp of a */
     uint32_t unit_m;        /*   scene unit; for people, not the core */
+    uint8_t auto_direct;    /* ql_direct_t: what QL_DIRECT_AUTO is here */
+    uint8_t auto_lights;    /* ql_light_choice_t: QL_LIGHTS_AUTO */
+    uint8_t trials[6];      /* QL_BLOB_TRIALS; for people, not the core */
     ql_blob_table_t camera; /* count is 1 */
     ql_blob_table_t vertices;
     ql_blob_table_t triangles;
@@ -238,7 +253,7 @@ typedef struct {
     uint16_t triangle;  /* strictly increasing; QL_LIGHT_SKY for the sky */
 } ql_blob_light_t;
 
-QL_STATIC_ASSERT(sizeof(ql_blob_header_t) == 88, ql_blob_header_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_header_t) == 96, ql_blob_header_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_camera_t) == 108, ql_blob_camera_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_vertex_t) == 6, ql_blob_vertex_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_tri_t) == 12, ql_blob_tri_size);

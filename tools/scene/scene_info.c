@@ -4,10 +4,13 @@
 #include "scene/scene_info.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 
 #include "lib/math/soft.h"
+#include "lib/render/render_options.h"
 #include "scene/blob/write_blob.h"
+#include "scene/choose/choice.h"
 
 static void print_features(FILE *file, uint32_t features)
 {
@@ -98,6 +101,22 @@ static void print_lights(FILE *file, const model_t *model)
     fprintf(file, "radiance-unit: 2^%d\n", model->header.radiance_exp);
 }
 
+/* What auto stands for, and how the ways that were tried compare. */
+static void print_choice(FILE *file, const ql_blob_header_t *h)
+{
+    fprintf(file, "auto: %s %s\n", render_words_direct[h->auto_direct],
+            render_words_lights[h->auto_lights]); /* checked when opened */
+    for (unsigned i = 0; i < CHOICE_WAYS; i++) {
+        if (h->trials[i] != QL_TRIAL_NONE) {
+            fprintf(file, "trial-%s-%s: %s%.3g\n",
+                    render_words_direct[choice_ways[i].direct],
+                    render_words_lights[choice_ways[i].lights],
+                    h->trials[i] == QL_TRIAL_MOST ? ">=" : "",
+                    exp2(h->trials[i] / 16.0));
+        }
+    }
+}
+
 void print_info(FILE *file, const model_t *model)
 {
     const ql_blob_header_t *h = &model->header;
@@ -116,6 +135,7 @@ void print_info(FILE *file, const model_t *model)
     fprintf(file, "node-bits: %u\n", model_node_bits(model));
     print_lights(file, model);
     print_sky(file, model);
+    print_choice(file, h);
     fputs("features:", file);
     print_features(file, h->features);
     fprintf(file, "image: %u %u\n", (unsigned)h->image_width,

@@ -11,6 +11,7 @@
  *     read    texts to a world
  *     mesh    a world on its grid, smooth corners, the tree
  *     blob    a model and its bytes, a model and its text
+ *     choose  the way of finding light that a model asks for
  *     report  what a model could not keep of a world
  *     build   a world on its grid to a model
  */

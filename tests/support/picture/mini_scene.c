@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
+#include "base/ql_settings.h"
 #include "blob/ql_blob_open.h"
 #include "sample/ql_table.h"
 #include "support/ql_double.h"
@@ -999,6 +1000,11 @@ static void put_header(
     put(w, m->height, 2);
     put(w, 0, 2); /* a grid unit is a scene unit */
     put(w, 1, 4);
+    put(w, QL_DIRECT_AREA, 1);
+    put(w, QL_LIGHTS_POWER, 1);
+    for (unsigned i = 0; i < 6; i++) {
+        put(w, QL_TRIAL_NONE, 1);
+    }
     for (unsigned i = 0; i < 12; i++) {
         put(w, tables->core[i / 2][i % 2], 4);
     }

@@ -55,10 +55,10 @@ printf 'NOPE' >bad.qlb
 says another_file 'byte 0: not a qlux blob: expected "QLUX"'
 printf 'QL' >bad.qlb
 says a_file_of_two_bytes "byte 2: the blob is longer than the bytes given: \
-expected a header of 88 bytes"
+expected a header of 96 bytes"
 patch 4 '\0143\0002'
 says another_version "byte 4: the blob's version is not the one this build \
-reads: expected version 1, found 611"
+reads: expected version 2, found 611"
 head -c $((size - 4)) good.qlb >bad.qlb
 says a_cut_blob "byte 8: the blob is longer than the bytes given: expected \
 $size bytes, found $((size - 4))"
@@ -73,12 +73,15 @@ mended() { # OFFSET HEX: the same with the check value of what is there
 lacks='the scene needs a feature this build lacks'
 mended 19 80
 says another_feature "byte 16: $lacks: unknown"
-mended 4 0200
+mended 4 0100
+says the_version_before "byte 4: the blob's version is not the one this build \
+reads: expected version 2, found 1"
+mended 4 0300
 says the_next_version "byte 4: the blob's version is not the one this build \
-reads: expected version 1, found 2"
-mended 6 60
+reads: expected version 2, found 3"
+mended 6 68
 says tables_of_other_features "byte 6: the blob's version is not the one this \
-build reads: expected the tables of its features, found a header of 96 bytes"
+build reads: expected the tables of its features, found a header of 104 bytes"
 mended 20 2100
 says too_deep_a_tree_for_every_program "byte 20: the BVH is deeper than this \
 build's stack: expected a depth of 32 or less, found 33"
@@ -88,7 +91,11 @@ expected a depth of 32 or less, found 33" 's/^depth .*/depth 33/'
 range='an offset, index, count or value is out of range'
 makes a_header_out_of_range "byte 26: $range: expected -64 to 64, found 65" \
     's/^radiance_exp .*/radiance_exp 65/'
-makes a_table_out_of_range "byte 88: $range: expected tables as BLOB.md has \
+makes a_strategy_that_is_none "byte 40: $range: expected 0 to 5, found 6" \
+    's/^auto .*/auto 6 0/'
+makes a_choice_of_lights_that_is_none "byte 41: $range: expected 0 to 2, found \
+3" 's/^auto .*/auto 1 3/'
+makes a_table_out_of_range "byte 96: $range: expected tables as BLOB.md has \
 them from here on" 's/^d .*/d 0x7fffffff 0x00000000 0x00000000/'
 
 exit $((failures > 0))

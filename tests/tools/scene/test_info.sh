@@ -21,11 +21,11 @@ is() {
 # and in a leaf of its own. One unit is 1 / 4096.
 "$scene" "$scenes/square.scene" -o square.qlb >out.txt 2>err.txt
 [ ! -s err.txt ] && is the_summary_of_the_square <<'END'
-square.qlb: 4 triangles, 2 lights, 396 bytes
+square.qlb: 4 triangles, 2 lights, 404 bytes
 END
 "$scene" --info square.qlb >out.txt
 is each_line_about_the_square <<'END'
-version: 1
+version: 2
 triangles: 4
 spheres: 0
 vertices: 8
@@ -45,14 +45,15 @@ sky: none
 tables: 0
 table-words: 0
 lens: no
+auto: area power
 features: node16 lights
 image: 16 16
 exposure: 1
 unit: 0.000244140625
 rounding: 0.000122
-bytes: 396
-bytes-per-triangle: 99.00
-crc32: 8a4f6ea6
+bytes: 404
+bytes-per-triangle: 101.00
+crc32: a0665cf0
 END
 
 # Of the others, the same as their dumps have, whose lines are counted.
@@ -65,6 +66,7 @@ for s in glossy sky smooth lens wild lights; do
         $1 == "features" { features = $0; sub(/ /, ": ", features) }
         $1 == "image" { image = $0; sub(/ /, ": ", image) }
         $1 == "radiance_exp" { unit = $2 }
+        $1 == "auto" && $2 == 1 && $3 == 0 { choice = "auto: area power" }
         $1 == "exposure_q8" { exposure = $2 / 256 }
         $1 == "n" || $1 == "v" || $1 == "t" || $1 == "s" || $1 == "l" ||
             $1 == "table" { count[$1]++ }
@@ -94,6 +96,7 @@ for s in glossy sky smooth lens wild lights; do
             print "tables: " count["table"] + 0
             print "table-words: " words + 0
             print "lens: " (lens ? "yes" : "no")
+            print choice
             print features
             print image
             printf "exposure: %.8g\n", exposure

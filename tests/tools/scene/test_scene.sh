@@ -649,10 +649,10 @@ expect nodes_of_the_wrong_width_are_refused 2 'expected pairs16 if and only' \
 (sed '$d' in/c.txt && echo w && echo end) >in/d.txt
 expect a_dump_line_without_numbers_is_refused 2 'expected a word' \
     "$scene" in/d.txt -o out.qlb
-for version in 1 3 ''; do
-    sed "1s/2/$version/" in/c.txt >in/d.txt
+for version in 2 4 ''; do
+    sed "1s/3/$version/" in/c.txt >in/d.txt
     expect "a_dump_of_version_'$version'_is_refused" 2 \
-        "in/d.txt:1: expected a dump of version 2, found '$version'" \
+        "in/d.txt:1: expected a dump of version 3, found '$version'" \
         "$scene" in/d.txt -o out.qlb
 done
 sed '$d' in/c.txt >in/d.txt
@@ -748,16 +748,16 @@ while read -r s crc16 crc8; do
         [ "$("$scene" --info in/two.qlb | sed -n 's/^crc32: //p')" = "$crc8" ]
     say ${s}_is_the_same_blob_on_every_host $?
 done <<'END'
-cornell 72e32885 f4e04991
-furnace 40710584 b3fc3ba0
-furnace08 c142d5d8 30d30534
-furnace099 694a8df5 29dac9c6
-square 8a4f6ea6 963300a6
-wild caadac8c ed54834b
-glossy 8e154d7b 2576da4c
-sky d6333909 d995dcc6
-lens 73118f00 0d4e2df5
-smooth ca34bbd2 5a5a4dfc
+cornell 1e2bb38a 6ded01bb
+furnace f4558ede bee5ef2f
+furnace08 c39c4b4c 7d243af5
+furnace099 b09225f7 2c6b90d0
+square a0665cf0 98b6f94e
+wild 854a9d02 a86ce85e
+glossy 6c59816b bdf5f184
+sky 4169874e b8d923db
+lens ee0653b0 9f593241
+smooth fae27ced 41199014
 END
 
 is_clean

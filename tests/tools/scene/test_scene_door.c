@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
+#include "base/ql_settings.h"
 #include "blob/ql_blob_open.h"
 #include "scene/blob/blob_schema.h"
 #include "support/picture/mini_scene.h"
@@ -242,11 +243,11 @@ typedef struct {
 static const rule_t rules[] = {
         NOT_BY("header", "magic", 0x58554c50u, QL_ERR_MAGIC),
         NOT_BY("header", "version", 0, QL_ERR_VERSION),
-        NOT_BY("header", "version", 2, QL_ERR_VERSION),
-        NOT_BY("header", "header_bytes", 88 + 8 * 9, QL_ERR_VERSION),
-        NOT_BY("header", "header_bytes", 88 + 8 * 11, QL_ERR_VERSION),
+        NOT_BY("header", "version", 1, QL_ERR_VERSION),
+        NOT_BY("header", "header_bytes", 96 + 8 * 9, QL_ERR_VERSION),
+        NOT_BY("header", "header_bytes", 96 + 8 * 11, QL_ERR_VERSION),
         NOT_BY("header", "size_bytes", 0x7ffffffcu, QL_ERR_TRUNCATED),
-        NOT_BY("header", "size_bytes", 84, QL_ERR_RANGE),
+        NOT_BY("header", "size_bytes", 92, QL_ERR_RANGE),
         NOT_BY("header", "features", 0x40003fe5u, QL_ERR_FEATURE),
         NOT_BY("header", "depth", QL_CFG_BVH_STACK + 1, QL_ERR_CAPACITY),
         EDGE("header", "depth", 0, QL_CFG_BVH_STACK, 0),
@@ -264,6 +265,10 @@ static const rule_t rules[] = {
         EDGE("header", "image_height", 0, 16384, 16385),
         FREE("header", "unit_m"),
         FREE("header", "unit_exp"),
+        EDGE("header", "auto_direct", 0, QL_DIRECT_MIS, QL_DIRECT_MIS + 1),
+        EDGE("header", "auto_lights", 0, QL_LIGHTS_UNIFORM,
+                QL_LIGHTS_UNIFORM + 1),
+        FREE("header", "trials"),
 
         WIDE_REACHES("camera", "at[0]"),
         FREE("camera", "at[1]"),

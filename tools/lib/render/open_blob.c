@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "base/ql_crc.h"
+#include "base/ql_settings.h"
 #include "lib/program/cli.h"
 #include "blob/ql_blob_open.h"
 
@@ -79,7 +80,9 @@ static fault_t find_range(const ql_blob_header_t *h)
     } numbers[] = {{AT(root_meta), QL_LE16(h->root_meta), 0, 3 + QL_LEAF_MAX},
             {AT(radiance_exp), exponent, -64, 64},
             {AT(image_width), QL_LE16(h->image_width), 1, QL_IMAGE_MAX},
-            {AT(image_height), QL_LE16(h->image_height), 1, QL_IMAGE_MAX}};
+            {AT(image_height), QL_LE16(h->image_height), 1, QL_IMAGE_MAX},
+            {AT(auto_direct), h->auto_direct, 0, QL_DIRECT_MIS},
+            {AT(auto_lights), h->auto_lights, 0, QL_LIGHTS_UNIFORM}};
     const ql_blob_table_t *table = &h->camera;
 
     if (QL_LE32(h->size_bytes) < sizeof *h || QL_LE32(h->size_bytes) % 4 != 0) {

@@ -33,6 +33,9 @@ enum {
     F(T, image_height, U16, 1, NULL, 1, "the height")                          \
     F(T, unit_m, X32, 1, "unit", 1, "the unit")                                \
     F(T, unit_exp, S16, 1, NULL, 1, "its exponent")                            \
+    F(T, auto_direct, U8, 1, "auto", 1, "the strategy")                        \
+    F(T, auto_lights, U8, 1, NULL, 1, "the choice of lights")                  \
+    F(T, trials, U8, 6, "trials", 1, "a trial")                                \
     F(T, camera, PLACE, 1, NULL, 0, NULL)                                      \
     F(T, vertices, PLACE, 1, NULL, 0, NULL)                                    \
     F(T, triangles, PLACE, 1, NULL, 0, NULL)                                   \

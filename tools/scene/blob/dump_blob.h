@@ -11,7 +11,7 @@
 /* The first line is its name and its version, the last one says that all of it
  * is there. */
 #define DUMP_NAME    "qlux-dump"
-#define DUMP_VERSION "2"
+#define DUMP_VERSION "3"
 #define DUMP_END     "end"
 
 /* Write every number of a blob as text: parse_dump() reads it back. */

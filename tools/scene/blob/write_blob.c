@@ -43,7 +43,7 @@ static void lay_out(layout_t *layout, uint32_t features,
     for (int i = 0; i < BLOB_TABLE_COUNT; i++) {
         end += blob_has_table(blob_tables + i, features) ? blob_place.bytes : 0;
     }
-    layout->header_bytes = (uint16_t)end; /* 152 at most */
+    layout->header_bytes = (uint16_t)end; /* 176 at most */
     for (int i = 0; i < BLOB_TABLE_COUNT; i++) {
         layout->offset[i] = end;
         if (blob_has_table(blob_tables + i, features)) {

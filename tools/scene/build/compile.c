@@ -13,6 +13,7 @@
 #include "scene/build/build_lights.h"
 #include "scene/build/build_materials.h"
 #include "scene/build/build_sky.h"
+#include "scene/choose/choice.h"
 #include "scene/report/faint.h"
 #include "scene/mesh/gain.h"
 #include "scene/mesh/nodes.h"
@@ -296,6 +297,7 @@ void compile_model(model_t *model, const world_t *world, const grid_t *grid,
     place_contacts(model, grid, bvh);
     place_ranks(model, grid, bvh);
     fill_header(model, world, grid);
+    choice_make(model);
 }
 
 /* Say what the grid cost, what makes it coarse, and what was there twice, a
