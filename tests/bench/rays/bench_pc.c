@@ -25,7 +25,7 @@
 #define COMPARE_SPP  64    /* to compare the pictures' means */
 #define REPETITIONS  31    /* unless the command line has fewer */
 #define AGREE_MIN    0.999 /* same triangle by both tracers */
-#define MEAN_MAX     0.05  /* relative difference of the pictures' means */
+#define MEAN_MAX     0.01  /* relative difference of the pictures' means */
 
 #define PRECISION (QL_CFG_PRECISION == 0 ? "draft" : "fine")
 

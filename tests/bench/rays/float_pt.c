@@ -3,22 +3,39 @@
 
 #include "bench/rays/float_pt.h"
 
+#include "sample/ql_sampler.h"
+
 #define STACK_MAX       64
 #define EPSILON         0.25f /* grid units: 2^-17 of the scene's box */
 #define SEGMENT_EPSILON 1e-4f /* of a segment's length, at its far end */
 #define PI              3.14159265f
 
-/* Square root: the instruction where there is one, else Newton's method. */
+/* Is there an FPU? Then it has a square root and compares; else Newton's method
+ * and the bits of numbers do, which are ordered as integers where not both are
+ * negative. */
 #if defined(__SSE__) || defined(__ARM_FP) || defined(__aarch64__) ||           \
         defined(__riscv_flen)
 #define square_root(x) __builtin_sqrtf(x)
+#define magnitude(x)   __builtin_fabsf(x)
+#define less(a, b)     ((a) < (b))
+#define opposite(a, b) ((a) < 0.0f ? (b) > 0.0f : (a) > 0.0f && (b) < 0.0f)
 #else
+typedef union {
+    float f;
+    uint32_t bits;
+} float_bits_t;
+
+QL_INLINE uint32_t bits_of(float x)
+{
+    float_bits_t r;
+
+    r.f = x;
+    return r.bits;
+}
+
 static float square_root(float x)
 {
-    union {
-        float f;
-        uint32_t bits;
-    } r;
+    float_bits_t r;
 
     if (x <= 0.0f) {
         return 0.0f;
@@ -28,6 +45,28 @@ static float square_root(float x)
     r.f *= 1.5f - 0.5f * x * r.f * r.f;
     r.f *= 1.5f - 0.5f * x * r.f * r.f;
     return x * r.f * (1.5f - 0.5f * x * r.f * r.f);
+}
+
+QL_INLINE float magnitude(float x)
+{
+    float_bits_t r;
+
+    r.f = x;
+    r.bits &= 0x7fffffffu;
+    return r.f;
+}
+
+/* Is a < b? Not both are negative. */
+QL_INLINE bool less(float a, float b)
+{
+    return ql_i32(bits_of(a)) < ql_i32(bits_of(b));
+}
+
+/* Have two numbers opposite signs? A zero's sign counts too: a ray that meets
+ * an edge belongs to one of its two triangles, by the sign of the product. */
+QL_INLINE bool opposite(float a, float b)
+{
+    return (bits_of(a) ^ bits_of(b)) >> 31 != 0;
 }
 #endif
 
@@ -276,9 +315,11 @@ static inline slabs_t slabs_begin(const fp_ray_t *ray)
     return s;
 }
 
-/* Where a ray enters a box; at t_max or beyond if it does not. A ray along a
- * face may make 0 * infinity: a comparison with that is false, so it is left
- * out. */
+/* Where a ray enters a box, or FP_FAR if it does not before t_max. t_min is not
+ * negative. A PC computes all six planes without a branch; a microcontroller
+ * stops at the first pair of planes that leaves nothing. A ray along a face may
+ * make 0 * infinity: a comparison with that is false, or leaves the box in. */
+#if defined(__SSE__) || defined(__aarch64__)
 QL_INLINE float enter_box(
         const float box[6], const slabs_t *s, float t_min, float t_max)
 {
@@ -298,28 +339,64 @@ QL_INLINE float enter_box(
     far = z1 < far ? z1 : far;
     return near <= far ? near : FP_FAR;
 }
+#else
+/* Cut [near, far] by a pair of planes; false if nothing is left. */
+QL_INLINE bool cut(float *near, float *far, float low, float high, float origin,
+        float inverse)
+{
+    const float enter = (low - origin) * inverse;
+    float leave;
 
-/* Moeller and Trumbore. */
+    if (less(*near, enter)) {
+        *near = enter;
+        if (less(*far, *near)) {
+            return false;
+        }
+    }
+    leave = (high - origin) * inverse;
+    if (less(leave, *far)) {
+        *far = leave;
+    }
+    return !less(*far, *near);
+}
+
+QL_INLINE float enter_box(
+        const float box[6], const slabs_t *s, float t_min, float t_max)
+{
+    float near = t_min, far = t_max;
+
+    return cut(&near, &far, box[s->x], box[s->x ^ 1], s->origin.x,
+                   s->inverse.x) &&
+                           cut(&near, &far, box[2 + s->y], box[2 + (s->y ^ 1)],
+                                   s->origin.y, s->inverse.y) &&
+                           cut(&near, &far, box[4 + s->z], box[4 + (s->z ^ 1)],
+                                   s->origin.z, s->inverse.z)
+                   ? near
+                   : FP_FAR;
+}
+#endif
+
+/* Moeller and Trumbore, divided by the determinant only what hits. */
 QL_INLINE bool hit_tri(const fp_tri_t *tri, const fp_ray_t *ray, float t_max,
         float *t_out, float *det_out)
 {
     const fp_vec_t p = cross(ray->direction, tri->e2);
     const fp_vec_t s = sub(ray->origin, tri->v0);
     const float det = dot(tri->e1, p);
-    const float inverse = 1.0f / det;
-    const float u = dot(s, p) * inverse;
+    const float size = magnitude(det);
+    const float u = dot(s, p);
     fp_vec_t q;
     float v, t;
 
-    if (!(u >= 0.0f && u <= 1.0f)) {
-        return false; /* also if det is 0 */
-    }
-    q = cross(s, tri->e1);
-    v = dot(ray->direction, q) * inverse;
-    if (!(v >= 0.0f && u + v <= 1.0f)) {
+    if (opposite(u, det) || less(size, magnitude(u))) {
         return false;
     }
-    t = dot(tri->e2, q) * inverse;
+    q = cross(s, tri->e1);
+    v = dot(ray->direction, q);
+    if (opposite(v, det) || less(size, magnitude(u + v))) {
+        return false;
+    }
+    t = dot(tri->e2, q) / det; /* not a number if det is 0 */
     if (!(t > ray->t_min && t < t_max)) {
         return false;
     }
@@ -344,15 +421,15 @@ bool fp_closest(const fp_scene_t *fp, const fp_ray_t *ray, fp_hit_t *hit)
             const fp_pair_t *pair = fp->pairs + link;
             const float t0 = enter_box(pair->box[0], &s, t_min, nearest);
             const float t1 = enter_box(pair->box[1], &s, t_min, nearest);
-            const unsigned near = t1 < t0, far = near ^ 1u;
+            const unsigned near = less(t1, t0), far = near ^ 1u;
 
-            if (near ? t0 < FP_FAR : t1 < FP_FAR) {
+            if (less(near ? t0 : t1, FP_FAR)) {
                 stack[depth].t = near ? t0 : t1;
                 stack[depth].link = pair->link[far];
                 stack[depth].count = pair->count[far];
                 depth++;
             }
-            if (near ? t1 < FP_FAR : t0 < FP_FAR) {
+            if (less(near ? t1 : t0, FP_FAR)) {
                 link = pair->link[near];
                 count = pair->count[near];
                 continue;
@@ -374,7 +451,7 @@ bool fp_closest(const fp_scene_t *fp, const fp_ray_t *ray, fp_hit_t *hit)
                 return nearest < ray->t_max;
             }
             depth--;
-        } while (stack[depth].t >= nearest);
+        } while (!less(stack[depth].t, nearest));
         link = stack[depth].link;
         count = stack[depth].count;
     }
@@ -395,17 +472,17 @@ bool fp_occluded(const fp_scene_t *fp, const fp_ray_t *ray)
             const float t0 = enter_box(pair->box[0], &s, t_min, t_max);
             const float t1 = enter_box(pair->box[1], &s, t_min, t_max);
 
-            if (t0 < FP_FAR) {
+            if (less(t0, FP_FAR)) {
                 link = pair->link[0];
                 count = pair->count[0];
-                if (t1 < FP_FAR) {
+                if (less(t1, FP_FAR)) {
                     stack[depth].link = pair->link[1];
                     stack[depth].count = pair->count[1];
                     depth++;
                 }
                 continue;
             }
-            if (t1 < FP_FAR) {
+            if (less(t1, FP_FAR)) {
                 link = pair->link[1];
                 count = pair->count[1];
                 continue;
@@ -485,40 +562,28 @@ QL_NOINLINE fp_vec_t fp_cosine_hemisphere(fp_vec_t n, float u1, float u2)
             scale(n, square_root(1.0f - u1)));
 }
 
-/* A seed for each pixel and sample. */
-QL_INLINE uint32_t scramble(uint32_t x)
+/* The very numbers that qlux draws, in [0, 1). */
+QL_INLINE float unit(uint32_t u)
 {
-    x = (x + 0x9e3779b9u) * 0x85ebca6bu;
-    x = (x ^ x >> 15) * 0xc2b2ae35u;
-    return x ^ x >> 16;
-}
-
-/* Marsaglia's xorshift; the state is not 0. */
-QL_INLINE float next_random(uint32_t *state)
-{
-    uint32_t x = *state;
-
-    x ^= x << 13;
-    x ^= x >> 17;
-    x ^= x << 5;
-    *state = x;
-    return (float)(x >> 8) * 0x1p-24f;
+    return (float)(u >> 8) * 0x1p-24f;
 }
 
 /* ---- paths ---- */
 
 /* Light that a point reflects from a point on an emitter. */
 static fp_vec_t direct(const fp_scene_t *fp, fp_vec_t p, fp_vec_t n,
-        fp_vec_t reflected, uint32_t *random)
+        fp_vec_t reflected, const ql_sampler_t *sampler, uint32_t dim)
 {
     static const fp_vec_t black = {0.0f, 0.0f, 0.0f};
     const fp_light_t *light = fp->lights;
     const fp_tri_t *tri;
+    ql_uniform2_t u;
     float u1, u2, cos_n, cos_light, inverse;
     fp_ray_t ray;
 
     if (fp->light_count > 1) {
-        const float pick = next_random(random);
+        const float pick =
+                unit(ql_sampler_1d(sampler, dim + QL_DIM_LIGHT_PICK));
         uint32_t low = 0, high = fp->light_count - 1;
 
         while (low < high) {
@@ -532,8 +597,9 @@ static fp_vec_t direct(const fp_scene_t *fp, fp_vec_t p, fp_vec_t n,
         }
         light += low;
     }
-    u1 = next_random(random);
-    u2 = next_random(random);
+    u = ql_sampler_2d(sampler, dim + QL_DIM_LIGHT_POINT);
+    u1 = unit(u.u1);
+    u2 = unit(u.u2);
     if (u1 + u2 > 1.0f) {
         u1 = 1.0f - u1;
         u2 = 1.0f - u2;
@@ -562,8 +628,8 @@ static fp_vec_t direct(const fp_scene_t *fp, fp_vec_t p, fp_vec_t n,
             cos_n * cos_light * inverse * inverse * light->weight);
 }
 
-static fp_vec_t trace_path(
-        const fp_scene_t *fp, fp_ray_t ray, unsigned bounces, uint32_t *random)
+static fp_vec_t trace_path(const fp_scene_t *fp, fp_ray_t ray, unsigned bounces,
+        const ql_sampler_t *sampler)
 {
     fp_vec_t carried = {1.0f, 1.0f, 1.0f};
     fp_vec_t light = {0.0f, 0.0f, 0.0f};
@@ -572,7 +638,8 @@ static fp_vec_t trace_path(
         const fp_material_t *material;
         fp_vec_t n;
         fp_hit_t hit;
-        float u1, u2;
+        ql_uniform2_t u;
+        const uint32_t dim = QL_DIM_BOUNCE(bounce);
 
         if (!fp_closest(fp, &ray, &hit)) {
             return light;
@@ -592,14 +659,14 @@ static fp_vec_t trace_path(
         ray.origin = add(add(ray.origin, scale(ray.direction, hit.t)),
                 scale(n, EPSILON));
         if (fp->light_count > 0) {
-            light = add(light, direct(fp, ray.origin, n, carried, random));
+            light = add(
+                    light, direct(fp, ray.origin, n, carried, sampler, dim));
         }
         if (bounce >= bounces) {
             return light;
         }
-        u1 = next_random(random);
-        u2 = next_random(random);
-        ray.direction = fp_cosine_hemisphere(n, u1, u2);
+        u = ql_sampler_2d(sampler, dim + QL_DIM_DIRECTION);
+        ray.direction = fp_cosine_hemisphere(n, unit(u.u1), unit(u.u2));
         ray.t_min = 0.0f;
         ray.t_max = FP_FAR;
     }
@@ -610,23 +677,28 @@ void fp_pixel(const fp_scene_t *fp, unsigned x, unsigned y, unsigned width,
         float rgb[3])
 {
     const fp_camera_t *c = &fp->camera;
+    const float step = 2.0f / (float)height;
+    const float left = (float)x - 0.5f * (float)width;
+    ql_sampler_t sampler;
 
+    ql_sampler_begin(&sampler, QL_SAMPLER_SOBOL, 0, (uint16_t)x, (uint16_t)y);
     for (uint32_t i = first; i < first + count; i++) {
-        uint32_t random = scramble(scramble(y * width + x) + i) | 1u;
+        ql_uniform2_t u;
         float px, py;
         fp_ray_t ray;
         fp_vec_t light;
 
-        px = (2.0f * ((float)x + next_random(&random)) - (float)width) /
-             (float)height;
-        py = 1.0f - 2.0f * ((float)y + next_random(&random)) / (float)height;
+        ql_sampler_start(&sampler, i);
+        u = ql_sampler_2d(&sampler, QL_DIM_PIXEL);
+        px = (left + unit(u.u1)) * step;
+        py = 1.0f - ((float)y + unit(u.u2)) * step;
         ray.origin = add(c->p, add(scale(c->pr, px), scale(c->pu, py)));
         ray.direction = add(c->d, add(scale(c->dr, px), scale(c->du, py)));
         ray.direction = scale(ray.direction,
                 1.0f / square_root(dot(ray.direction, ray.direction)));
         ray.t_min = 0.0f;
         ray.t_max = FP_FAR;
-        light = trace_path(fp, ray, bounces, &random);
+        light = trace_path(fp, ray, bounces, &sampler);
         rgb[0] += light.x;
         rgb[1] += light.y;
         rgb[2] += light.z;

@@ -1,11 +1,13 @@
 /* float_pt.h - the rival: the same path tracer in single precision */
 /* SPDX-License-Identifier: MIT */
 
-/* What one would write where floating point is fast: boxes and triangles as
- * floats, slabs with the inverse direction, both children of a node at once and
- * the nearer first, Moeller and Trumbore's triangle test, points on emitters,
- * cosine-distributed directions in a frame. It takes its tree and triangles
- * from the blob, so that both tracers search the same tree. */
+/* What one would write for speed, with an FPU and without: boxes and triangles
+ * as floats, slabs with the inverse direction, both children of a node at once
+ * and the nearer first, Moeller and Trumbore's triangle test without a division
+ * on a miss, points on emitters, cosine-distributed directions in a frame. It
+ * takes its tree and triangles from the blob, so that both tracers search the
+ * same tree, and its random numbers from the core, so that both follow the same
+ * paths. */
 
 #ifndef FLOAT_PT_H
 #define FLOAT_PT_H
