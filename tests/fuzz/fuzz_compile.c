@@ -9,7 +9,7 @@
 #include "qlux.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
-#include "scene/read/read_scene.h"
+#include "scene/script/read_scene.h"
 
 enum { WIDTH = 2, HEIGHT = 2, SPP = 1 };
 

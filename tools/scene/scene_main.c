@@ -8,7 +8,8 @@
  *     crease  normals where faces meet
  *     lamp    faces that shine together
  *     foreign what other programs leave in files, what is left out of them
- *     read    texts to a world
+ *     read    texts of meshes, materials and tables to a world
+ *     script  the .scene: its lines, its own surfaces and materials
  *     mesh    a world on its grid, smooth corners, the tree
  *     blob    a model and its bytes, a model and its text
  *     choose  the way of finding light that a model asks for
@@ -29,7 +30,7 @@
 #include "scene/blob/read_blob.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
-#include "scene/read/read_scene.h"
+#include "scene/script/read_scene.h"
 #include "scene/scene_features.h"
 #include "scene/scene_info.h"
 

@@ -137,7 +137,7 @@ cam='camera eye 0 0 5 look 0 0 0 fov 40\n'
 a=in/a.scene
 bad_scene an_unknown_key_is_refused $a:2 'expected mesh' "mesh a.obj\ntoast 3\n"
 bad_scene a_scene_needs_a_camera $a:1 "expected a 'camera'" 'mesh a.obj\n'
-bad_scene a_scene_needs_a_mesh $a:1 "expected a 'mesh'" "$cam"
+bad_scene a_scene_needs_a_surface $a:1 'expected a mesh, box, quad or' "$cam"
 bad_scene a_second_camera_is_refused $a:2 "expected one 'camera'" "$cam$cam"
 bad_scene an_empty_file_is_refused $a:0 "expected a 'camera'" ''
 bad_scene fov_0_is_refused $a:1 'expected a fov above 0' \
@@ -214,14 +214,13 @@ bad_scene a_sphere_of_negative_radius_is_refused $a:1 'expected a radius' \
 bad_scene a_sphere_needs_a_material $a:1 'expected sphere X Y Z radius R' \
     'sphere 0 0 0 radius 1 material\n'
 bad_scene a_sphere_of_an_unknown_material_has_its_line $a:2 \
-    "expected a material that a mesh's mtllib defines, found 'nix'" \
+    "expected a material that a mesh's mtllib or a 'material' line defines, \
+found 'nix'" \
     "${cam}sphere 0 0 0 radius 1 material nix\nmesh a.obj\n"
 printf "mesh b.obj\n${cam}sphere 0 0 0 radius 1 material ghost\n" >$a
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl ghost\nf 1 2 3\n' >in/b.obj
 expect a_name_that_only_faces_use_is_no_material 2 "$a:3: expected a material" \
     "$scene" $a -o out.qlb
-bad_scene spheres_alone_still_need_a_mesh $a:2 "expected a 'mesh'" \
-    "${cam}sphere 0 0 0 radius 1 material w\n"
 reset_input
 printf 'mtllib a.mtl\n' >in/a.obj
 (printf 'sphere 0 0 0 radius 1 material w\n' && cat in/a.scene &&

@@ -345,7 +345,9 @@ int64_t soft_round(soft_t a, int bits)
 
 double soft_double(soft_t a)
 {
-    const double size = ldexp((double)a.m, a.e);
+    /* at most 2^53, so no register's width rounds it again */
+    const uint64_t m = (a.m >> 11) + (a.m >> 10 & 1u);
+    const double size = ldexp((double)m, a.e + 11);
 
     return a.negative ? -size : size;
 }

@@ -79,7 +79,7 @@ u128_t soft_floor(soft_t a);
 /* The integer nearest to a * 2^bits, halves away from 0; saturates. */
 int64_t soft_round(soft_t a, int bits);
 
-/* For people: the nearest double, 0 or infinity where there is none. */
+/* The nearest double, halves away from 0; 0 or infinity where there is none. */
 double soft_double(soft_t a);
 
 #endif

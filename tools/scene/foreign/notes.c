@@ -43,6 +43,9 @@ void notes_add(notes_t *notes, unsigned line, const char *kind,
     unsigned of_kind;
     note_t *note;
 
+    if (notes->quiet) {
+        return;
+    }
     va_start(arguments, format);
     (void)vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);

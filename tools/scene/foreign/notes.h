@@ -4,6 +4,7 @@
 #ifndef NOTES_H
 #define NOTES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* A message that came count times, first in a line. message is NULL for those
@@ -20,6 +21,7 @@ typedef struct {
     const char *path; /* for messages */
     note_t *notes;
     size_t count, capacity;
+    bool quiet; /* nothing is taken down */
 } notes_t;
 
 #define NOTES_MOST 10 /* different messages of a kind; the rest are counted */

@@ -3,6 +3,7 @@
 
 #include "scene/read/read_mtl.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,6 +39,7 @@ typedef struct {
     world_material_t *material; /* being read; NULL before the first newmtl */
     extras_t extras;
     notes_t notes;
+    bool strict; /* a property of no numbers is an error */
 } reader_t;
 
 static bool is_black(const double colour[3])
@@ -164,6 +166,10 @@ static void end_material(reader_t *reader)
 static void report_no_number(
         reader_t *reader, const char *what, const char *key, const char *found)
 {
+    if (reader->strict) {
+        text_fail(&reader->text, "expected %s for %s of '%s', found '%.80s'",
+                what, key, reader->material->name, found);
+    }
     notes_add(&reader->notes, reader->text.line, "properties of no numbers",
             "expected %s for %s of '%s', found '%.80s': left out", what, key,
             reader->material->name, found);
@@ -272,10 +278,19 @@ static void read_ke(reader_t *reader, const char *key)
     }
 }
 
+static void begin_material(reader_t *reader, const char *name)
+{
+    const size_t index = world_add_material(reader->world, name, strlen(name));
+
+    reader->material = reader->world->materials + index;
+    reader->material->defined = true;
+    memset(&reader->extras, 0, sizeof reader->extras);
+    reader->extras.illum = -1; /* not said */
+}
+
 static void read_newmtl(reader_t *reader)
 {
     const char *name = text_rest(&reader->text);
-    size_t index;
 
     if (name == NULL) {
         notes_add(&reader->notes, reader->text.line, "newmtl without a name",
@@ -283,11 +298,7 @@ static void read_newmtl(reader_t *reader)
         name = "";
     }
     end_material(reader);
-    index = world_add_material(reader->world, name, strlen(name));
-    reader->material = reader->world->materials + index;
-    reader->material->defined = true;
-    memset(&reader->extras, 0, sizeof reader->extras);
-    reader->extras.illum = -1; /* not said */
+    begin_material(reader, name);
 }
 
 /* d F, d -halo F, Tr F: opacity and its opposite. */
@@ -397,15 +408,19 @@ static bool is_key(const char *key, const char *name)
            (strncmp(name, "map_", 4) == 0 && strcasecmp(key, name) == 0);
 }
 
+/* Those that a line of a scene may have come first. */
+enum { KEYS_OF_LINES = 7, KEYS = 12 };
+
+static const struct {
+    const char *name;
+    void (*read)(reader_t *, const char *);
+} keys[KEYS] = {{"Kd", read_kd}, {"Ks", read_ks}, {"Ns", read_exponent},
+        {"Ke", read_ke}, {"illum", read_illum}, {"Ni", read_index},
+        {"Tf", read_tf}, {"d", read_opacity}, {"Tr", read_opacity},
+        {"Ka", read_ka}, {"map_Kd", read_map_kd}, {"map_Ke", read_map_ke}};
+
 static void read_key(reader_t *reader, const char *key)
 {
-    static const struct {
-        const char *name;
-        void (*read)(reader_t *, const char *);
-    } keys[] = {{"Kd", read_kd}, {"Ks", read_ks}, {"Tf", read_tf},
-            {"Ke", read_ke}, {"Ns", read_exponent}, {"Ni", read_index},
-            {"illum", read_illum}, {"d", read_opacity}, {"Tr", read_opacity},
-            {"Ka", read_ka}, {"map_Kd", read_map_kd}, {"map_Ke", read_map_ke}};
 
     if (strcmp(key, "newmtl") == 0) {
         read_newmtl(reader);
@@ -418,7 +433,7 @@ static void read_key(reader_t *reader, const char *key)
                 "out");
         return;
     }
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+    for (size_t i = 0; i < KEYS; i++) {
         if (is_key(key, keys[i].name)) {
             keys[i].read(reader, keys[i].name);
             return;
@@ -433,6 +448,7 @@ void read_mtl(world_t *world, const char *path)
     reader_t reader = {0};
 
     reader.world = world;
+    reader.notes.quiet = world->quiet;
     text_open_foreign(&reader.text, path, &reader.notes, names);
     while (text_line(&reader.text)) {
         read_key(&reader, text_word(&reader.text));
@@ -440,4 +456,83 @@ void read_mtl(world_t *world, const char *path)
     end_material(&reader);
     notes_report(&reader.notes);
     text_close(&reader.text);
+}
+
+/* ---- a line of a scene ---- */
+
+/* Where the next word of letters begins, or the end. */
+static char *find_letters(char *rest)
+{
+    char *at = rest;
+
+    while (*at != '\0' && !isalpha((unsigned char)*at)) {
+        at += strcspn(at, " \t\v\f");
+        at += strspn(at, " \t\v\f");
+    }
+    return at;
+}
+
+/* Read a property whose values are all that is left of the text; return its
+ * bit. */
+static unsigned read_property(reader_t *reader, const char *key)
+{
+    size_t i = 0;
+
+    while (i < KEYS_OF_LINES && strcmp(key, keys[i].name) != 0) {
+        i++;
+    }
+    if (i == KEYS_OF_LINES) {
+        text_fail(&reader->text,
+                "expected Kd, Ks, Ns, Ke, illum, Ni or Tf of '%s', found "
+                "'%.80s'",
+                reader->material->name, key);
+    }
+    keys[i].read(reader, keys[i].name);
+    text_finish(&reader->text);
+    return 1u << i;
+}
+
+void read_material(world_t *world, text_t *text)
+{
+    reader_t reader = {.world = world, .strict = true};
+    const char *name = text_word(text), *key;
+    unsigned seen = 0;
+
+    if (name == NULL) {
+        text_fail(text, "expected material NAME [Kd R G B] [Ks R G B] [Ns N] "
+                        "[Ke R G B] [illum I] [Ni N] [Tf R G B]");
+    }
+    for (size_t m = 0; m < world->material_count; m++) {
+        if (strcmp(world->materials[m].name, name) == 0) {
+            text_fail(text,
+                    "expected one material '%s' in a scene, found a "
+                    "second",
+                    name);
+        }
+    }
+    reader.text = *text;
+    reader.notes.path = text->path;
+    reader.notes.quiet = world->quiet;
+    begin_material(&reader, name);
+    while ((key = text_word(&reader.text)) != NULL) {
+        char *next = find_letters(reader.text.rest);
+        unsigned bit;
+
+        if (*next != '\0' && next > reader.text.rest) {
+            next[-1] = '\0';
+        } else if (*next != '\0') {
+            text_fail(text, "expected numbers for %s of '%s', found '%.80s'",
+                    key, name, next);
+        }
+        bit = read_property(&reader, key);
+        if ((seen & bit) != 0) {
+            text_fail(
+                    text, "expected one %s of '%s', found a second", key, name);
+        }
+        seen |= bit;
+        reader.text.rest = next;
+    }
+    end_material(&reader);
+    notes_report(&reader.notes);
+    (void)text_rest(text);
 }

@@ -4,6 +4,7 @@
 #ifndef READ_MTL_H
 #define READ_MTL_H
 
+#include "scene/read/text.h"
 #include "scene/world/world.h"
 
 /* Append the materials of an MTL file to a world. What they become:
@@ -25,5 +26,16 @@
  *        read.
  */
 void read_mtl(world_t *world, const char *path);
+
+/* Append the material that the rest of a line of a scene defines: its name, one
+ * word, then properties as in an MTL file, each once. What that reports as no
+ * number is an error here.
+ *
+ *   world  -  in, out; all materials are of lines like this
+ *   text   -  in, out: of the .scene
+ *
+ * Fails: exit 2 with file and line of what is wrong.
+ */
+void read_material(world_t *world, text_t *text);
 
 #endif

@@ -411,6 +411,17 @@ static size_t find_material(const reader_t *reader, const char *name,
     return 0;
 }
 
+/* 1 + the material of the .scene that stands for a name; 0 if there is none. */
+static size_t find_own(const world_t *world, const char *name)
+{
+    for (size_t m = 0; m < world->own_count; m++) {
+        if (text_is_same_name(world->materials[m].name, name)) {
+            return m + 1;
+        }
+    }
+    return 0;
+}
+
 /* The material that entry i of used names: a new grey one if there is none. */
 static size_t resolve(reader_t *reader, size_t i)
 {
@@ -418,7 +429,9 @@ static size_t resolve(reader_t *reader, size_t i)
     size_t found = 0;
 
     if (i > 0) {
-        found = find_material(reader, used->name, is_exactly);
+        found = find_own(reader->world, used->name);
+        found = found > 0 ? found
+                          : find_material(reader, used->name, is_exactly);
         found = found > 0
                         ? found
                         : find_material(reader, used->name, text_is_same_name);
@@ -600,6 +613,7 @@ void read_obj(world_t *world, const char *path)
     world_add_mesh(world, path);
     reader.first_material = world->material_count;
     reader.index_max = -1;
+    reader.notes.quiet = world->quiet;
     add_used(&reader, "(none)");
     text_open_foreign(&reader.text, path, &reader.notes, names);
     while (text_line(&reader.text)) {

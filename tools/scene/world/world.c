@@ -84,6 +84,30 @@ world_table_t *world_add_table(world_t *world)
     return world->tables + world->table_count++;
 }
 
+static void turn_up(double p[3])
+{
+    const double y = p[1];
+
+    p[1] = p[2];
+    p[2] = 0 - y; /* 0 stays 0 */
+}
+
+void world_turn_up(world_t *world)
+{
+    for (size_t v = 0; v < world->vertex_count; v++) {
+        turn_up(world->vertices[v]);
+    }
+    for (size_t n = 0; n < world->normal_count; n++) {
+        turn_up(world->normals[n]);
+    }
+    for (size_t i = 0; i < world->sphere_count; i++) {
+        turn_up(world->spheres[i].centre);
+    }
+    turn_up(world->camera.eye);
+    turn_up(world->camera.look);
+    turn_up(world->camera.up);
+}
+
 static bool is_same_point(const world_t *world, uint32_t a, uint32_t b)
 {
     const double *p = world->vertices[a], *q = world->vertices[b];
@@ -108,9 +132,6 @@ bool world_emits(const world_t *world, uint32_t material)
 
 void world_free(world_t *world)
 {
-    for (size_t i = 0; i < world->sphere_count; i++) {
-        free(world->spheres[i].name);
-    }
     for (size_t i = 0; i < world->table_count; i++) {
         free(world->tables[i].weights);
     }

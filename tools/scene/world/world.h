@@ -40,8 +40,6 @@ typedef struct {
     double centre[3];
     double radius; /* above 0 */
     uint32_t material;
-    char *name;    /* of the material, until all are known */
-    unsigned line; /* in the .scene */
 } world_sphere_t;
 
 /* Light from all around; none if the colour is black and there is no map. */
@@ -94,9 +92,12 @@ typedef struct {
     world_sky_t sky;
     int64_t width, height; /* pixels */
     double exposure;       /* stops */
-    double smooth;  /* degrees between faces that are, where files say nothing;
+    double smooth; /* degrees between faces that are, where files say nothing;
                     * 0: none are */
-    bool two_sided; /* lights shine to both sides */
+    size_t own_count; /* the first materials: those the .scene defines, which
+                       * stand for all of their names */
+    bool two_sided;   /* lights shine to both sides */
+    bool quiet;       /* readers say nothing of what they leave out */
 } world_t;
 
 /* Add one; return its index. */
@@ -107,6 +108,10 @@ void world_add_mesh(world_t *world, const char *path);
 void world_add_face(world_t *world, const world_face_t *face);
 world_sphere_t *world_add_sphere(world_t *world); /* all zero; until the next */
 world_table_t *world_add_table(world_t *world);
+
+/* Turn all of a world, camera included, so that z, which was up, becomes y:
+ * x, y, z become x, z, -y. */
+void world_turn_up(world_t *world);
 
 /* Are two corners of a face in one place? */
 bool world_is_flat(const world_t *world, const world_face_t *face);

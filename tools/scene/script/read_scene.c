@@ -1,18 +1,18 @@
 /* read_scene.c - the .scene text and the meshes it names */
 /* SPDX-License-Identifier: MIT */
 
-#include "scene/read/read_scene.h"
+#include "scene/script/read_scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib/program/cli.h"
-#include "lib/program/alloc.h"
 #include "scene/crease/crease.h"
-#include "scene/read/read_obj.h"
-#include "scene/sky/read_sky.h"
+#include "scene/read/read_mtl.h"
 #include "scene/read/read_table.h"
+#include "scene/script/item.h"
+#include "scene/sky/read_sky.h"
 #include "scene/ql_blob.h"
 #include "lib/math/soft_vec.h"
 
@@ -26,6 +26,13 @@ static void read_vector(text_t *text, const char *what, double vector[3])
         vector[k] = text_number(text, what);
     }
 }
+
+/* A scene while its lines are read. */
+typedef struct {
+    world_t *world;
+    items_t items;
+    bool is_up_z;
+} script_t;
 
 /* A value of a line that its name announces. */
 typedef struct {
@@ -77,19 +84,19 @@ static unsigned read_named(text_t *text, const named_t *values, unsigned count)
     return seen;
 }
 
-static void check_camera(const text_t *text, const world_camera_t *camera)
+/* Fail at its line if it has no picture. */
+static void check_camera(text_t *text, const world_t *world)
 {
+    const world_camera_t *camera = &world->camera;
     const soft_vec_t up = soft_vec_from(camera->up);
     const soft_vec_t view = soft_vec_sub(
             soft_vec_from(camera->look), soft_vec_from(camera->eye));
     const soft_vec_t side = soft_vec_cross(view, up);
     soft_t least = soft_mul(soft_vec_dot(view, view), soft_vec_dot(up, up));
 
+    text->line = world->camera_line;
     if (soft_vec_dot(view, view).m == 0) {
         text_fail(text, "expected camera 'eye' and 'look' at different points");
-    }
-    if (soft_vec_dot(up, up).m == 0) {
-        text_fail(text, "expected camera 'up' that is not 0 0 0");
     }
     least.e -= 40; /* sin^2 of the angle: a millionth, squared */
     if (soft_compare(soft_vec_dot(side, side), least) <= 0) {
@@ -97,6 +104,7 @@ static void check_camera(const text_t *text, const world_camera_t *camera)
     }
 }
 
+/* Its up may be missing, and is 0 0 0 until the file is read. */
 static void read_camera(text_t *text, world_t *world)
 {
     world_camera_t *camera = &world->camera;
@@ -107,8 +115,7 @@ static void read_camera(text_t *text, world_t *world)
     unsigned seen;
 
     world->camera_line = text->line;
-    camera->up[0] = camera->up[2] = 0;
-    camera->up[1] = 1;
+    camera->up[0] = camera->up[1] = camera->up[2] = 0;
     seen = read_named(text, values, 4);
     if ((seen | 4u) != 15) { /* all but up */
         text_fail(text, "expected camera eye X Y Z look X Y Z [up X Y Z] "
@@ -117,7 +124,10 @@ static void read_camera(text_t *text, world_t *world)
     if (!(camera->fov > 0 && camera->fov < 180)) {
         text_fail(text, "expected a fov above 0 and below 180 degrees");
     }
-    check_camera(text, camera);
+    if ((seen & 4u) != 0 && camera->up[0] == 0 && camera->up[1] == 0 &&
+            camera->up[2] == 0) {
+        text_fail(text, "expected camera 'up' that is not 0 0 0");
+    }
 }
 
 static void read_size(text_t *text, world_t *world)
@@ -154,18 +164,6 @@ static void read_lights(text_t *text, world_t *world)
     world->two_sided = word[0] == 't';
 }
 
-static bool is_readable(const text_t *text, const char *name)
-{
-    char *path = text_beside(text->path, name);
-    FILE *file = fopen(path, "rb");
-
-    free(path);
-    if (file != NULL) {
-        fclose(file);
-    }
-    return file != NULL;
-}
-
 /* The path of a file that the scene names; fails if it cannot be read. */
 static char *find_path(const text_t *text, const char *what, const char *name)
 {
@@ -178,21 +176,6 @@ static char *find_path(const text_t *text, const char *what, const char *name)
     }
     fclose(file);
     return path;
-}
-
-static void read_mesh(text_t *text, world_t *world)
-{
-    char *name = text_rest(text);
-    char *path;
-
-    while (name != NULL && !is_readable(text, name) && text_cut_comment(name)) {
-    }
-    if (name == NULL || *name == '\0') {
-        text_fail(text, "expected mesh FILE.obj");
-    }
-    path = find_path(text, "mesh", name);
-    read_obj(world, path);
-    free(path);
 }
 
 static void read_table_file(text_t *text, world_t *world)
@@ -220,31 +203,6 @@ static void read_lens(text_t *text, world_t *world)
         text_fail(text, "expected a radius of 0 or more and a focus above 0");
     }
     world->lens_line = text->line;
-}
-
-/* X Y Z radius R material NAME; the name may hold blanks. */
-static void read_sphere(text_t *text, world_t *world)
-{
-    static const char form[] = "sphere X Y Z radius R material NAME";
-    world_sphere_t *sphere = world_add_sphere(world);
-    const char *word;
-
-    read_vector(text, "three coordinates", sphere->centre);
-    word = text_word(text);
-    if (word == NULL || strcmp(word, "radius") != 0) {
-        text_fail(text, "expected %s", form);
-    }
-    sphere->radius = text_number(text, "the radius");
-    if (!(sphere->radius > 0)) {
-        text_fail(text, "expected a radius above 0");
-    }
-    word = text_word(text);
-    if (word == NULL || strcmp(word, "material") != 0 ||
-            (word = text_rest(text)) == NULL) {
-        text_fail(text, "expected %s", form);
-    }
-    sphere->name = alloc_text(word, strlen(word));
-    sphere->line = text->line;
 }
 
 static void read_colour(text_t *text, world_sky_t *sky)
@@ -296,28 +254,52 @@ static void read_sky_line(text_t *text, world_t *world)
     }
 }
 
-/* The keys of the language. */
-enum { MESH, CAMERA, KEY_COUNT = 10 };
+static void read_up(text_t *text, script_t *script)
+{
+    const char *word = text_word(text);
 
-static const struct {
+    if (word == NULL || (strcmp(word, "y") != 0 && strcmp(word, "z") != 0)) {
+        text_fail(text, "expected up y or up z");
+    }
+    script->is_up_z = word[0] == 'z';
+}
+
+static void read_own_material(text_t *text, script_t *script)
+{
+    read_material(script->world, text);
+    script->world->own_count = script->world->material_count;
+}
+
+/* A key of the language; one of the three reads the rest of its line. */
+typedef struct {
     const char *name;
     void (*read)(text_t *, world_t *);
+    void (*read_item)(items_t *, text_t *);
+    void (*read_script)(text_t *, script_t *);
     bool repeats; /* a scene may have several */
-} keys[KEY_COUNT] = {
-        [MESH] = {"mesh", read_mesh, true},
-        [CAMERA] = {"camera", read_camera, false},
-        {"image", read_size, false},
-        {"exposure", read_exposure, false},
-        {"lights", read_lights, false},
-        {"smooth", read_smooth, false},
-        {"lens", read_lens, false},
-        {"sky", read_sky_line, false},
-        {"sphere", read_sphere, true},
-        {"table", read_table_file, true},
+} key_t;
+
+enum { CAMERA, KEY_COUNT = 14 };
+
+static const key_t keys[KEY_COUNT] = {
+        [CAMERA] = {.name = "camera", .read = read_camera},
+        {.name = "mesh", .read_item = item_read_mesh, .repeats = true},
+        {.name = "box", .read_item = item_read_box, .repeats = true},
+        {.name = "quad", .read_item = item_read_quad, .repeats = true},
+        {.name = "sphere", .read_item = item_read_sphere, .repeats = true},
+        {.name = "material", .read_script = read_own_material, .repeats = true},
+        {.name = "up", .read_script = read_up},
+        {.name = "image", .read = read_size},
+        {.name = "exposure", .read = read_exposure},
+        {.name = "lights", .read = read_lights},
+        {.name = "smooth", .read = read_smooth},
+        {.name = "lens", .read = read_lens},
+        {.name = "sky", .read = read_sky_line},
+        {.name = "table", .read = read_table_file, .repeats = true},
 };
 
 /* Read a line; seen has a bit for each key that was there before. */
-static void read_line(text_t *text, world_t *world, unsigned *seen)
+static void read_line(text_t *text, script_t *script, unsigned *seen)
 {
     const char *word = text_word(text);
     int key = 0;
@@ -327,78 +309,63 @@ static void read_line(text_t *text, world_t *world, unsigned *seen)
     }
     if (key == KEY_COUNT) {
         text_fail(text,
-                "expected mesh, camera, lens, image, sky, sphere, lights, "
-                "smooth, exposure or table, found '%s'",
+                "expected mesh, box, quad, sphere, material, camera, lens, "
+                "image, sky, lights, smooth, up, exposure or table, found "
+                "'%.80s'",
                 word);
     }
     if (!keys[key].repeats && (*seen & 1u << key) != 0) {
         text_fail(text, "expected one '%s' in a scene, found a second", word);
     }
     *seen |= 1u << key;
-    keys[key].read(text, world);
+    if (keys[key].read_item != NULL) {
+        keys[key].read_item(&script->items, text);
+    } else if (keys[key].read_script != NULL) {
+        keys[key].read_script(text, script);
+    } else {
+        keys[key].read(text, script->world);
+    }
     text_finish(text);
 }
 
-/* 1 + the last material of a name that a library defines, or else of that name
- * but for a comment; 0 if there is none. */
-static size_t find_material(const world_t *world, const char *name)
+/* Let the camera's up be that of the scene, if it has none of its own. */
+static void finish_camera(script_t *script, text_t *text)
 {
-    size_t found = 0;
-    bool exact = false;
+    double *up = script->world->camera.up;
 
-    for (size_t m = 0; m < world->material_count; m++) {
-        const world_material_t *material = world->materials + m;
-        const bool same = strcmp(material->name, name) == 0;
-
-        if (material->defined &&
-                (same || (!exact && text_is_same_name(material->name, name)))) {
-            found = m + 1;
-            exact = same;
-        }
+    if (up[0] == 0 && up[1] == 0 && up[2] == 0) {
+        up[script->is_up_z ? 2 : 1] = 1;
     }
-    return found;
-}
-
-/* Materials may be defined after the spheres made of them. The last definition
- * of a name counts. */
-static void resolve_spheres(world_t *world, text_t *text)
-{
-    for (size_t i = 0; i < world->sphere_count; i++) {
-        world_sphere_t *sphere = world->spheres + i;
-        size_t m = find_material(world, sphere->name);
-
-        while (m == 0 && text_cut_comment(sphere->name)) {
-            m = find_material(world, sphere->name);
-        }
-        if (m == 0) {
-            text->line = sphere->line;
-            text_fail(text,
-                    "expected a material that a mesh's mtllib defines, found "
-                    "'%s'",
-                    sphere->name);
-        }
-        sphere->material = (uint32_t)(m - 1);
-    }
+    check_camera(text, script->world);
 }
 
 void read_scene(world_t *world, text_t *text)
 {
-    static const char *const names[] = {"mesh", "sphere", NULL};
-    unsigned seen = 0;
+    static const char *const names[] = {"mesh", "box", "quad", "sphere", NULL};
+    script_t script = {.world = world};
+    unsigned seen = 0, last_line;
 
     text->whole = names;
     memset(world, 0, sizeof *world);
     world->path = text->path;
     world->width = world->height = 256;
     while (text_line(text)) {
-        read_line(text, world, &seen);
+        read_line(text, &script, &seen);
     }
     if ((seen & 1u << CAMERA) == 0) {
         text_fail(text, "expected a 'camera' line before the end of the file");
     }
-    if ((seen & 1u << MESH) == 0) {
-        text_fail(text, "expected a 'mesh' line before the end of the file");
+    last_line = text->line;
+    finish_camera(&script, text);
+    text->line = last_line;
+    if (script.items.count == 0) {
+        text_fail(text, "expected a mesh, box, quad or sphere before the end "
+                        "of the file");
     }
-    resolve_spheres(world, text);
+    item_build(&script.items, world, text);
+    item_free(&script.items);
+    if (script.is_up_z) {
+        world_turn_up(world);
+    }
     crease_world(world);
 }
