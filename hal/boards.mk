@@ -47,7 +47,7 @@ board_src := $(or $(FIRMWARE_SRC),firmware/qlux.c $(sort $(wildcard \
     hal/boards/$(BOARD)/board.c
 
 # A benchmark is a firmware too.
-ifneq ($(filter bench-board,$(MAKECMDGOALS)),)
+ifneq ($(filter bench-board%,$(MAKECMDGOALS)),)
 include tests/bench/bench_board.mk
 endif
 
@@ -64,11 +64,18 @@ board_cc := $(strip $(BOARD_CROSS)gcc $(BOARD_CPU) $(OPT) $(board_lto) \
     -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' $(board_gates) $(CFLAGS_BOARD))
 board_cc_hal := $(board_cc) $(board_port)
 board_cc_main := $(board_cc_hal) $(board_main) $(board_bench) $(FLAGS_MAIN)
-board_ld := $(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) \
+board_gap := 0
+board_ld = $(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) \
     $(board_lto) -ffreestanding -g -fcallgraph-info=su) -nostdlib \
     -Wl,--gc-sections -Llinker -Wl,-T,$(BOARD_MCU).ld \
     -Wl,--defsym=ql_ld_stack_bytes=$(BOARD_STACK) \
+    -Wl,--defsym=ql_ld_gap_bytes=$(board_gap) \
     -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments
+
+# Functions that the linker throws away keep lines of debug information, from
+# address 0. What reads those lines gets a firmware whose code begins above them;
+# optimisation of the whole program leaves no such functions.
+board_lines := $(board_name)$(if $(board_lto),,-lines).elf
 
 # A folder of shared objects is named by a checksum of the command. Should two
 # commands have the same, the file of flags makes objects anew.
@@ -116,6 +123,10 @@ $(board_name).elf: $(board_obj) $(call board_flags,$(board_own)).elf \
     linker/sections.ld linker/$(BOARD_MCU).ld
 	$(call step,LD,$@)$(board_ld) $(board_obj) -lgcc -o $@
 
+$(board_name)-lines.elf: board_gap := 16384
+$(board_name)-lines.elf: $(board_name).elf
+	@$(subst $(board_name).map,$@.map,$(board_ld)) $(board_obj) -lgcc -o $@
+
 $(board_name).hex: $(board_name).elf
 	$(call step,HEX,$@)$(BOARD_CROSS)objcopy -O ihex $< $@
 
@@ -139,14 +150,14 @@ run-emulated: $(board_name).elf $O/qlux-recv
 $(board_picture)-sim.ppm: $(BLOB).qlb $(simulator) FORCE
 	$(call step,RENDER,$@)$(sim) --quiet
 
-size-board: $(board_name).elf
+size-board: $(board_name).elf $(board_lines)
 	@$(BOARD_CROSS)size -A $< | awk -v name='$(board_rows)' \
 	    '/^\.(text|rodata|data) / { flash += $$2 } \
 	    /^\.(data|bss) / { ram += $$2 } \
 	    END { print name " flash: " flash; print name " ram: " ram }'
 	@stack=$$(tools/dev/stack_report.sh $< $(BOARD_CROSS)objdump \
 	    $(board_graphs)) && echo "$(board_rows) stack: $$stack"
-	@tools/dev/size_report.sh $< $(BOARD_CROSS) | \
+	@tools/dev/size_report.sh $(board_lines) $(BOARD_CROSS) | \
 	    sed 's/^/$(board_rows) flash-/'
 
 test-stack: $(board_name).elf $O/qlux-recv

@@ -47,7 +47,7 @@ $O/warps-pc-draft: $(warps_obj:%=$O/draft/%) \
 	$(link)
 
 bench: ## Instructions per ray, path and warp; ratios to float
-bench: bench-boards bench-warps bench-strategies bench-pc
+bench: bench-boards bench-profile bench-warps bench-strategies bench-pc
 
 PRECISIONS ?= draft fine
 
@@ -105,7 +105,19 @@ bench-board: $(board_name).elf
 	    -monitor none -serial stdio -icount shift=0 \
 	    -semihosting-config enable=on,target=native \
 	    -kernel $< < /dev/null 2> $O/$(BOARD)/bench.log
+
+bench-board-profile: $(board_lines)
+	@tests/bench/profile.sh $< $(BOARD_CROSS) $(BOARD_CORE) $(BOARD_QEMU)
 endif
+
+bench-profile: ## Where the instructions of a path go, by source
+bench-profile: $O/$(scene).qlb
+	@for board in $(BOARDS); do for precision in $(PRECISIONS); do \
+	    $(MAKE) -s --no-print-directory bench-board-profile BOARD=$$board \
+	        PRECISION=$$precision EMULATED=1 DIAG=1 \
+	        VARIANT=-profile-$$precision $(call bench_main,bench_profile.c) \
+	        || exit; \
+	done; done
 
 # REPETITIONS: of how many a time is the median.
 REPETITIONS ?= 31
@@ -127,6 +139,6 @@ shrink: $O/qlux-scene $O/qlux-sim
 budgets-update: ## Write what is measured into tests/budgets
 	tests/bench/test_bench.sh --update $(BOARDS)
 
-.PHONY: bench bench-boards bench-board bench-pc bench-warps \
+.PHONY: bench bench-boards bench-board bench-profile bench-board-profile bench-pc bench-warps \
     bench-warps-boards bench-warps-pc bench-strategies budgets-update \
     shrink strategies

@@ -110,6 +110,22 @@ add_up()
     say_rows bench/size
 }
 
+# Of 64 paths every instruction is told to a source; sources of rays are two.
+profile()
+{
+    "$make" -s --no-print-directory bench-board-profile BOARD="$1" \
+        EMULATED=1 DIAG=1 VARIANT=-profile-64 FLAGS_MAIN=-DQL_BENCH_SIZE=4 \
+        BOARD_MAIN='tests/bench/bench_profile.c tests/bench/bench_board.c' \
+        > "$dir/profile" 2> "$dir/log" &&
+        grep -q ' path-in-closest-ql_bvh.c: ' "$dir/profile" &&
+        grep -q ' path-in-shadow-ql_bvh.c: ' "$dir/profile" &&
+        awk -F ': ' '/ path: / { path = $2 } / path-in-/ { sum += $2 }
+            END { exit !(path && sum > path * 0.98 && sum < path * 1.02) }' \
+            "$dir/profile"
+    say_as bench/boards a_path_is_divided_among_its_sources \
+        "$([ $? -eq 0 ] && echo ok || echo FAIL)" "$(tail -n 1 "$dir/log")"
+}
+
 # board NAME: what it measures is what its budgets say
 board()
 {
@@ -129,6 +145,7 @@ board()
     fi
     compare bench/size tests/budgets/sizes.txt "$dir/size" "$board"
     add_up "$dir/size"
+    [ "$board" != lm3s6965evb ] || profile "$board"
 }
 
 pc()

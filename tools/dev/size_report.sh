@@ -36,16 +36,19 @@ if [ ! -r "$elf" ]; then
 fi
 
 sections=$("${prefix}size" -A "$elf") || exit 3
+# Bytes that the linker left free behind the vectors (hal/boards.mk).
+gap=$("${prefix}nm" "$elf" | sed -n 's/ A ql_ld_gap_bytes$//p')
+gap=$((0x${gap:-0}))
 {
     echo "$sections"
-    echo "$sections" | awk '
-        $1 == ".text" { for (i = 0; i < $2; i += 2) printf "%x\n", $3 + i }' |
+    echo "$sections" | awk -v gap="$gap" '
+        $1 == ".text" { for (i = gap; i < $2; i += 2) printf "%x\n", $3 + i }' |
         "${prefix}addr2line" -a -e "$elf"
     "${prefix}nm" -S "$elf"
     "${prefix}objdump" -d --no-show-raw-insn "$elf"
     "${prefix}objdump" --dwarf=rawline "$elf"
     "${prefix}objdump" --dwarf=info "$elf"
-} | awk -v root="$PWD/" -v files="$files" '
+} | awk -v root="$PWD/" -v files="$files" -v gap="$gap" '
 function number(hex,    i, n) {
     n = 0
     sub(/^0x/, "", hex)
@@ -76,6 +79,7 @@ function count(source, n) {
 $1 ~ /^\.(text|rodata|data)$/ && NF == 3 {
     left += $2
     if ($1 == ".text") {
+        left -= gap
         text = $3
         text_end = $3 + $2
     }
