@@ -73,8 +73,8 @@ board_ld = $(BOARD_CROSS)gcc $(BOARD_CPU) $(if $(board_lto),$(OPT) \
     -Wl,-Map,$(board_name).map -Wl,--no-warn-rwx-segments
 
 # Functions that the linker throws away keep lines of debug information, from
-# address 0. What reads those lines gets a firmware whose code begins above them;
-# optimisation of the whole program leaves no such functions.
+# address 0. What reads those lines gets a firmware whose code begins above
+# them; optimisation of the whole program leaves no such functions.
 board_lines := $(board_name)$(if $(board_lto),,-lines).elf
 
 # A folder of shared objects is named by a checksum of the command. Should two

@@ -139,6 +139,6 @@ shrink: $O/qlux-scene $O/qlux-sim
 budgets-update: ## Write what is measured into tests/budgets
 	tests/bench/test_bench.sh --update $(BOARDS)
 
-.PHONY: bench bench-boards bench-board bench-profile bench-board-profile bench-pc bench-warps \
-    bench-warps-boards bench-warps-pc bench-strategies budgets-update \
-    shrink strategies
+.PHONY: bench bench-boards bench-board bench-profile bench-board-profile \
+    bench-pc bench-warps bench-warps-boards bench-warps-pc bench-strategies \
+    budgets-update shrink strategies

@@ -1,8 +1,8 @@
-/* bench_profile.c - the paths of the benchmark and nothing else, to be profiled */
+/* bench_profile.c - the paths of the benchmark alone, to be profiled */
 /* SPDX-License-Identifier: MIT */
 
-/* As bench_main.c, but only whole paths, and no counter: profile.sh counts every
- * instruction from outside. */
+/* As bench_main.c, but only whole paths: profile.sh counts every instruction
+ * from outside. */
 
 #include "bench/bench_board.h"
 
