@@ -148,6 +148,13 @@
 #define QL_CFG_PANEL 1
 #endif
 
+/* QL_CFG_CURVES: 0 to 3. Curves that a picture can be shown by beside the
+ * display's own, sRGB: 1 filmic, 2 Reinhard's, 3 both of ql_curve_t. The first
+ * one costs 500 bytes, 386 of them its table. */
+#ifndef QL_CFG_CURVES
+#define QL_CFG_CURVES 3
+#endif
+
 /* QL_CFG_SMALL: 0 or 1. Short code where fast and short code differ; results
  * are the same bits. Saves 4,500 bytes of 15,800, and a path costs 2.3 times
  * the instructions on a Cortex-M0: products, real numbers, hashes, the
@@ -221,6 +228,9 @@
 #if QL_CFG_FORMATS < 1 || QL_CFG_FORMATS > 31
 #error "QL_CFG_FORMATS: use 1 to 31, the sum of 1 << format"
 #endif
+#if QL_CFG_CURVES < 0 || QL_CFG_CURVES > 3
+#error "QL_CFG_CURVES: use 0, 1 (filmic), 2 (Reinhard) or 3 (both)"
+#endif
 #if QL_CFG_DIAG != 0 && QL_CFG_DIAG != 1
 #error "QL_CFG_DIAG: use 0 or 1"
 #endif
@@ -270,8 +280,8 @@
     QL_JOIN(_strategies, QL_CFG_STRATEGIES, QL_CFG_ADAPTIVE, QL_CFG_INDIRECT,  \
             QL_CFG_SAMPLERS, QL_CFG_FORMATS, QL_CFG_PANEL, )
 #define QL_GATES_7                                                             \
-    QL_JOIN(_small, QL_CFG_SMALL, QL_CFG_DIAG, QL_CFG_BVH_STACK,               \
-            QL_CFG_ASSERT, , , )
+    QL_JOIN(_curves, QL_CFG_CURVES, QL_CFG_SMALL, QL_CFG_DIAG,                 \
+            QL_CFG_BVH_STACK, QL_CFG_ASSERT, , )
 #define QL_JOIN(a, b, c, d, e, f, g, h)  QL_JOIN_(a, b, c, d, e, f, g, h)
 #define QL_JOIN_(a, b, c, d, e, f, g, h) a##b##c##d##e##f##g##h
 
@@ -291,13 +301,20 @@
 /* Materials with a lobe of a single direction. */
 #define QL_SPECULAR (QL_CFG_MIRROR || QL_CFG_GLASS)
 
-/* A member of a struct, or its initialiser, that exists only if a gate is 1, so
- * that a board keeps no RAM for what it was built without. Only for members:
- * the header of a feature has one-line stubs for functions that are not built,
- * and who calls them asks for no gate. */
-#define QL_IF_BUILT(gate, member)  QL_IF_BUILT_(gate, member)
-#define QL_IF_BUILT_(gate, member) QL_IF_BUILT_##gate(member)
-#define QL_IF_BUILT_0(member)
-#define QL_IF_BUILT_1(member) member
+/* Curves that are more than the display's own. */
+#if QL_CFG_CURVES == 0
+#define QL_ROLL_OFF 0
+#else
+#define QL_ROLL_OFF 1
+#endif
+
+/* A member of a struct, or its initialiser and a comma, that exists only if a
+ * gate is 1, so that a board keeps no RAM for what it was built without. Only
+ * for members: the header of a feature has one-line stubs for functions that
+ * are not built, and who calls them asks for no gate. */
+#define QL_IF_BUILT(gate, ...)  QL_IF_BUILT_(gate, __VA_ARGS__)
+#define QL_IF_BUILT_(gate, ...) QL_IF_BUILT_##gate(__VA_ARGS__)
+#define QL_IF_BUILT_0(...)
+#define QL_IF_BUILT_1(...) __VA_ARGS__
 
 #endif

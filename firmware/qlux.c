@@ -67,6 +67,7 @@
 #include "light/sky/ql_sky_map.c"
 
 #include "film/ql_adaptive.c"
+#include "film/ql_curve.c"
 #include "film/ql_film.c"
 #include "film/ql_tonemap.c"
 

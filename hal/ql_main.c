@@ -11,8 +11,8 @@
  * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter, or directions.
  * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR: relative error of a pixel, a part of
  * 1, 0 for all samples. QL_APP_EXPOSURE: stops brighter than the scene's
- * exposure. QL_APP_INTERLACE: px between lines of the first pass, a power of
- * two. */
+ * exposure. QL_APP_CURVE: ql_curve_t. QL_APP_INTERLACE: px between lines of the
+ * first pass, a power of two. */
 #ifndef QL_APP_WIDTH
 #define QL_APP_WIDTH 64
 #endif
@@ -52,6 +52,9 @@
 #ifndef QL_APP_EXPOSURE
 #define QL_APP_EXPOSURE 0
 #endif
+#ifndef QL_APP_CURVE
+#define QL_APP_CURVE QL_CURVE_SRGB
+#endif
 #ifndef QL_APP_INTERLACE
 #define QL_APP_INTERLACE 1
 #endif
@@ -80,7 +83,8 @@ int main(void)
                     .roulette = QL_APP_ROULETTE,
                     .exposure_q8 = QL_EXPOSURE_Q8(QL_APP_EXPOSURE),
                     QL_IF_BUILT(QL_CFG_ADAPTIVE,
-                            .error_q16 = QL_ERROR_Q16(QL_APP_ERROR))},
+                            .error_q16 = QL_ERROR_Q16(QL_APP_ERROR), )
+                            QL_IF_BUILT(QL_ROLL_OFF, .curve = QL_APP_CURVE)},
             .interlace = QL_APP_INTERLACE,
             .work = work,
             .work_bytes = sizeof work,

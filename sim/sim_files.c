@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "film/ql_curve.h"
 #include "lib/render/fields.h"
 
 void sim_files_open(sim_files_t *files, const render_options_t *options)
@@ -47,6 +48,7 @@ static develop_t display_of(const render_options_t *o)
 {
     const develop_t how = {.kind = o->kind,
             .format = o->format,
+            .curve = ql_curve_of(&o->settings),
             .exposure_q8 = o->settings.exposure_q8};
 
     return how;

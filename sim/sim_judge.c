@@ -33,8 +33,8 @@ static double darkest(const ql_sum_t *sum, double scale)
     return (double)least * scale;
 }
 
-static void count_row(
-        tally_t *tally, const sums_t *sums, uint32_t y, double unit)
+static void count_row(tally_t *tally, const sums_t *sums, uint32_t y,
+        double unit, double white)
 {
     const ql_sum_t *row = sums_pixels(sums, y);
 
@@ -44,7 +44,7 @@ static void count_row(
 
         tally->pixels++;
         tally->black += most < BLACK;
-        tally->white += darkest(row + x, scale) >= 1;
+        tally->white += darkest(row + x, scale) >= white;
         tally->lit += most > 0;
         tally->stops += most > 0 ? log2(most) : 0;
     }
@@ -56,7 +56,7 @@ static bool nearly_all(uint64_t some, uint64_t all)
     return all - some <= all / 100;
 }
 
-void sim_judge(const sums_t *sums, int16_t exposure_q8)
+void sim_judge(const sums_t *sums, int16_t exposure_q8, ql_curve_t curve)
 {
     const double stops = exposure_q8 / 256.0;
     const double unit =
@@ -69,7 +69,8 @@ void sim_judge(const sums_t *sums, int16_t exposure_q8)
 
     for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
         if (sums_row_count(sums, y) != 0) {
-            count_row(&tally, sums, y, unit);
+            count_row(&tally, sums, y, unit,
+                    curve == QL_CURVE_SRGB ? 1 : QL_CURVE_WHITE);
         }
     }
     black = nearly_all(tally.black, tally.pixels);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/ql_curve.h"
 #include "qlux.h"
 #include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
@@ -104,7 +105,7 @@ static void run(render_options_t *o, const ql_render_t *render)
     sim_files_write(&files, &sums);
     (void)cli_release_signals();
     if (o->picture != NULL && o->kind != IMAGE_PFM) {
-        sim_judge(&sums, o->settings.exposure_q8);
+        sim_judge(&sums, o->settings.exposure_q8, ql_curve_of(&o->settings));
     }
     if (stats.saturated > 0 && !o->stats) {
         cli_warn("%" PRIu64 " contributions were cut at their limit",

@@ -41,6 +41,13 @@ typedef enum {
     QL_LIGHTS_UNIFORM /* one, each with the same chance */
 } ql_light_choice_t;
 
+/* How light becomes what a display shows (film/ql_curve.h). */
+typedef enum {
+    QL_CURVE_SRGB,    /* in proportion; white is cut */
+    QL_CURVE_FILMIC,  /* Narkowicz's fit of the ACES film curve */
+    QL_CURVE_REINHARD /* Reinhard's, with a white point */
+} ql_curve_t;
+
 typedef struct {
     uint16_t width; /* px, 1..16384; 0: the scene's own */
     uint16_t height;
@@ -57,13 +64,15 @@ typedef struct {
     /* u0.16: a pixel stops at this standard error, a part of its mean; 0: it
      * takes all its samples */
     QL_IF_BUILT(QL_CFG_ADAPTIVE, uint16_t error_q16;)
+    QL_IF_BUILT(QL_ROLL_OFF, uint8_t curve;) /* ql_curve_t */
 } ql_settings_t;
 
 /* Which gate of ql_config.h a setting needs: a build without GATE refuses a
  * MEMBER from FIRST to LAST, or such a pair of members. This is the only list:
  * tools/dev/gates.awk reads the same rows for make and for make trade. Beside
- * it, QL_CFG_SAMPLERS has a bit for each ql_sampler_kind_t, and error_q16 does
- * not exist without QL_CFG_ADAPTIVE.
+ * it, QL_CFG_SAMPLERS has a bit for each ql_sampler_kind_t, QL_CFG_CURVES for
+ * each ql_curve_t but SRGB; curve does not exist without any, nor error_q16
+ * without QL_CFG_ADAPTIVE.
  *
  *   NEED(GATE, MEMBER, FIRST, LAST)
  *   BOTH(GATE, MEMBER, FIRST, LAST, MEMBER, FIRST, LAST) */
@@ -103,14 +112,15 @@ typedef struct {
     ((int16_t)((stops)*256 + ((stops) < 0 ? -0.5 : 0.5)))
 
 /* The scene's size, 16 samples, seed 0, Sobol points and 4 bounces, or what
- * there is of them in the build, one light by area and power, the BRDF; in the
- * order of the struct, as C++ wants it. */
+ * there is of them in the build, one light by area and power, the BRDF, sRGB;
+ * in the order of the struct, as C++ wants it. */
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \
         0, 0, 16, 0, QL_CFG_INDIRECT ? 4 : 0,                                  \
                 QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM,    \
                 QL_DIRECT_AREA, QL_INDIRECT_BRDF, QL_LIGHTS_POWER, 1, 0, 0,    \
-                QL_IF_BUILT(QL_CFG_ADAPTIVE, 0)                                \
+                QL_IF_BUILT(QL_CFG_ADAPTIVE, 0, )                              \
+                        QL_IF_BUILT(QL_ROLL_OFF, QL_CURVE_SRGB)                \
     }
 
 #endif

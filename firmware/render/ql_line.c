@@ -4,6 +4,7 @@
 #include "render/ql_line.h"
 
 #include "film/ql_adaptive.h"
+#include "film/ql_curve.h"
 #include "render/ql_path.h"
 
 static bool is_within(unsigned value, unsigned first, unsigned last)
@@ -23,7 +24,8 @@ static bool lacks_a_gate(const ql_settings_t *s)
 {
     const bool lacks = QL_SETTINGS_NEED(LACKS, LACKS_BOTH) false;
 
-    return lacks || ((QL_CFG_SAMPLERS >> s->sampler) & 1) == 0;
+    return lacks || ((QL_CFG_SAMPLERS >> s->sampler) & 1) == 0 ||
+           ((QL_CFG_CURVES << 1 | 1) >> ql_curve_of(s) & 1) == 0;
 }
 
 static bool settings_in_range(const ql_settings_t *s)
@@ -33,7 +35,8 @@ static bool settings_in_range(const ql_settings_t *s)
            s->bounces <= QL_BOUNCES_MAX && s->sampler <= QL_SAMPLER_SOBOL &&
            s->direct <= QL_DIRECT_MIS && s->indirect <= QL_INDIRECT_BRDF &&
            s->lights <= QL_LIGHTS_UNIFORM && s->light_samples >= 1 &&
-           s->roulette <= 1 && !lacks_a_gate(s);
+           s->roulette <= 1 && ql_curve_of(s) <= QL_CURVE_REINHARD &&
+           !lacks_a_gate(s);
 }
 
 ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
@@ -164,6 +167,7 @@ void ql_render_encode(const ql_render_t *render, uint16_t x, uint16_t y,
     ql_uq16_t linear[3];
 
     ql_film_display(sum, samples, render->exposure, linear);
+    ql_curve_roll_off(ql_curve_of(&render->settings), linear);
     for (uint8_t i = 0; i < count; i++) {
         ql_tonemap_pixel(outputs[i].pixels, outputs[i].format, x, y, linear);
     }

@@ -177,7 +177,8 @@ for board; do
     check "$board" other_settings_compile_main_alone shares "$board"
     check "$board" fine_picture_is_the_simulators same "$board" PRECISION=fine
     check "$board" interlaced_picture_is_the_same \
-        same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SEED=9 EXPOSURE=-0.75
+        same "$board" INTERLACE=8 SIZE=37x21 SPP=2 SEED=9 EXPOSURE=-0.75 \
+        CURVE=filmic
     check "$board" random_numbers_nearest_entries_are_the_same same "$board" \
         $bare SIZE=24x24 SAMPLER=random SEED=9 TABLE_BITS=5 TABLE_LERP=0
     check "$board" spheres_phong_mirror_and_glass_are_the_same \

@@ -25,6 +25,7 @@
 #include <string.h>
 
 #include "base/ql_crc.h"
+#include "film/ql_curve.h"
 #include "math/lut/ql_lut.h"
 #include "math/ql_trig.h"
 #include "math/vec/ql_vec_unit.h"
@@ -288,6 +289,33 @@ static void add_tonemap(void)
         }
     }
     add_formats("tonemap", crc);
+}
+
+#if QL_ROLL_OFF
+static void add_curve(const char *name, ql_curve_t curve)
+{
+    uint32_t crc = 0;
+
+    for (uint32_t i = 0; i < 2048; i++) {
+        uint32_t linear[3] = {spread(i) >> i % 20, i * 257, i};
+
+        ql_curve_roll_off(curve, linear);
+        for (int k = 0; k < 3; k++) {
+            crc = crc_u32(crc, linear[k]);
+        }
+    }
+    add(name, crc);
+}
+#endif
+
+static void add_curves(void)
+{
+#if QL_CFG_CURVES & 1
+    add_curve("curve_filmic", QL_CURVE_FILMIC);
+#endif
+#if QL_CFG_CURVES & 2
+    add_curve("curve_reinhard", QL_CURVE_REINHARD);
+#endif
 }
 
 /* ---- Pictures ---------------------------------------------------------- */
@@ -646,6 +674,7 @@ int main(int argc, char **argv)
     add_lobes();
     add_spherical();
     add_tonemap();
+    add_curves();
     add_pictures(scenes);
     add_strategies(scenes, "cornell");
     for (int i = 5; i < argc; i++) {

@@ -119,16 +119,17 @@ say another_scene_of_the_same_name_is_another $?
 # ---- settings, the same here and on a board
 
 choice='DIRECT=solid-angle INDIRECT=uniform LIGHTS=all SEED=7 BOUNCES=2'
-build -n run $choice PRECISION=draft ERROR=0.1
+build -n run $choice PRECISION=draft ERROR=0.1 CURVE=filmic
 grep -q -- 'qlux-sim-draft .*--seed 7 --bounces 2 .*--direct solid-angle
     --indirect uniform --lights all .*--error 0.1' "$work/said" ||
     grep 'qlux-sim-draft .*--seed 7 --bounces 2 ' "$work/said" |
     grep -q -- '--direct solid-angle --indirect uniform --lights all .*--err'
 say settings_choose_the_picture_of_this_pc $?
-build -n firmware BOARD=microbit $choice ERROR=0.1
+build -n firmware BOARD=microbit $choice ERROR=0.1 CURVE=reinhard
 for word in APP_WIDTH=8 APP_SEED=7 APP_BOUNCES=2 APP_LIGHTS=QL_LIGHTS_ALL \
     APP_DIRECT=QL_DIRECT_SOLID_ANGLE APP_ERROR=0.1 CFG_PRECISION=0 \
-    CFG_STRATEGIES=1 CFG_ADAPTIVE=1 CFG_INDIRECT=1 CFG_FORMATS=1; do
+    CFG_STRATEGIES=1 CFG_ADAPTIVE=1 CFG_INDIRECT=1 CFG_FORMATS=1 \
+    CFG_CURVES=2 APP_CURVE=QL_CURVE_REINHARD; do
     grep -q -- "-DQL_$word " "$work/said" || echo "lacks $word"
 done >"$work/lacking"
 [ ! -s "$work/lacking" ]
@@ -142,7 +143,8 @@ gates() {
     done
 }
 {
-    gates '' 'STRATEGIES=0 ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17'
+    gates '' 'STRATEGIES=0 ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17 CURVES=0'
+    gates 'CURVE=filmic' 'CURVES=1'
     ! grep -q QL_APP_ERROR "$work/said" || echo 'an error that none asked for'
     gates 'DIRECT=none LIGHT_SAMPLES=1 LIGHTS=power' 'STRATEGIES=0'
     gates 'DIRECT=mis' 'STRATEGIES=1'

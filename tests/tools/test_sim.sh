@@ -74,6 +74,10 @@ expect a_format_without_display_picture_is_refused 1 "'--format' needs" \
     "$sim" scene.qlb -o a.pfm --format gray4
 expect linear_radiance_has_no_exposure 1 "'--exposure' needs" \
     "$sim" scene.qlb -o a.pfm --exposure 1
+expect linear_radiance_has_no_curve 1 "'--curve' needs" \
+    "$sim" scene.qlb -o a.pfm --curve filmic
+expect another_curve_is_refused 1 'filmic' \
+    "$sim" scene.qlb -o a.ppm --curve gamma
 for stops in 64.1 -65 x ''; do
     expect "exposure_'$stops'_is_refused" 1 'from -64 to 64\|needs a value' \
         "$sim" scene.qlb -o a.ppm --exposure "$stops"
@@ -218,11 +222,26 @@ same exposure_changes_no_sum plain.qls darker.qls
 same merge_and_sim_agree_on_exposures darker.ppm darker2.ppm
 ! cmp -s plain.ppm darker.ppm
 say exposure_changes_the_picture $?
+"$sim" scene.qlb -o straight.ppm $small --curve srgb
+same srgb_is_the_curve_of_a_picture plain.ppm straight.ppm
+for curve in filmic reinhard; do
+    "$sim" scene.qlb -o $curve.ppm $small --curve $curve
+    "$merge" plain.qls -o straight.ppm --curve $curve --quiet
+    same "merge_and_sim_agree_on_the_curve_$curve" $curve.ppm straight.ppm
+done
+! cmp -s plain.ppm filmic.ppm && ! cmp -s filmic.ppm reinhard.ppm
+say curves_change_the_picture $?
+rm -f straight.ppm filmic.ppm reinhard.ppm
 rm -f darker* plain.* brighter.ppm cornell.obj cornell.mtl
 
 # A picture that shows nothing says which exposure would.
 "$sim" scene.qlb -o a.ppm $small 2>err.txt && [ ! -s err.txt ]
 say a_picture_that_shows_something_needs_no_word $?
+# What is cut to white otherwise is below the white of a curve.
+"$sim" scene.qlb -o a.ppm $small --exposure 12 --curve filmic 2>err.txt &&
+    [ ! -s err.txt ] && "$sim" scene.qlb -o a.ppm $small --exposure 12 \
+    2>err.txt && grep -q 'picture is white' err.txt
+say a_curve_has_a_white_of_its_own $?
 for stops in -18 18; do
     shade=$([ $stops -lt 0 ] && echo black || echo white)
     "$sim" scene.qlb -o a.ppm $small --exposure $stops 2>err.txt

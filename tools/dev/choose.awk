@@ -266,6 +266,7 @@ function print_gates(    settings, key, member, k, need, formats)
     print "board_indirect=" need
     define("QL_CFG_ADAPTIVE", "ERROR" in value && value["ERROR"] + 0 > 0)
     define("QL_CFG_SAMPLERS", 2 ^ settings["sampler"])
+    define("QL_CFG_CURVES", int(2 ^ settings["curve"] / 2))
     # The stream is RGB888; a panel may have another format.
     formats = 1
     if ("PANEL" in board) {

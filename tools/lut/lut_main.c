@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/ql_curve.h"
 #include "lib/program/options.h"
 #include "math/lut/ql_lut.h"
 
@@ -78,6 +79,50 @@ static long srgb_entry(unsigned i)
         return 65280;
     }
     return round_far_from_tie(255 * 256 * srgb(x));
+}
+
+/* Of a channel x: film/ql_curve.h has the formulas. */
+static double narkowicz(double v)
+{
+    return v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14);
+}
+
+static double filmic(double x)
+{
+    return narkowicz(0.72 * x) / narkowicz(0.72 * QL_CURVE_WHITE);
+}
+
+static double reinhard(double x)
+{
+    const double l = 1.2 * x, white = 1.2 * QL_CURVE_WHITE;
+
+    return l * (1 + l / (white * white)) / (1 + l);
+}
+
+/* x at a place of the table: step i % 16 of octave i / 16 and beyond. */
+static double curve_place(double i)
+{
+    const double octave = floor(i / QL_CURVE_STEPS);
+
+    return ldexp(1 + i / QL_CURVE_STEPS - octave, (int)octave - 9);
+}
+
+static long curve_entry(unsigned i, double (*curve)(double))
+{
+    if (i == QL_CURVE_OCTAVES * QL_CURVE_STEPS) { /* white */
+        return 65535;
+    }
+    return round_far_from_tie(65536 * curve(curve_place(i)));
+}
+
+static long filmic_entry(unsigned i)
+{
+    return curve_entry(i, filmic);
+}
+
+static long reinhard_entry(unsigned i)
+{
+    return curve_entry(i, reinhard);
 }
 
 /* log2 of a reciprocal of the table, u0.32. */
@@ -150,6 +195,29 @@ static double srgb_error(void)
     return worst;
 }
 
+static double curve_error(double (*curve)(double))
+{
+    double worst = 0;
+
+    for (unsigned i = 0; i < 64 * QL_CURVE_OCTAVES * QL_CURVE_STEPS; i++) {
+        const double f = (i % 64 + 0.5) / 64;
+        const double y = (1 - f) * (double)curve_entry(i / 64, curve) +
+                         f * (double)curve_entry(i / 64 + 1, curve);
+        worst = fmax(worst, fabs(y / 65536 - curve(curve_place(i / 64 + f))));
+    }
+    return worst;
+}
+
+static double filmic_error(void)
+{
+    return curve_error(filmic);
+}
+
+static double reinhard_error(void)
+{
+    return curve_error(reinhard);
+}
+
 static double log2_error(void)
 {
     double worst = 0;
@@ -198,6 +266,14 @@ static const table_t tables[] = {
                 QL_SRGB_OCTAVES *QL_SRGB_STEPS, 1, false, srgb_entry,
                 srgb_error,
                 "sRGB curve, u8.8. Worst error %.2e of 255, interpolated."},
+        {"uint16_t", "ql_lut_filmic", "QL_CURVE_OCTAVES * QL_CURVE_STEPS + 1",
+                QL_CURVE_OCTAVES *QL_CURVE_STEPS, 1, false, filmic_entry,
+                filmic_error,
+                "Filmic curve, u0.16. Worst error %.2e, interpolated."},
+        {"uint16_t", "ql_lut_reinhard", "QL_CURVE_OCTAVES * QL_CURVE_STEPS + 1",
+                QL_CURVE_OCTAVES *QL_CURVE_STEPS, 1, false, reinhard_entry,
+                reinhard_error,
+                "Reinhard's curve, u0.16. Worst error %.2e, interpolated."},
         {"uint32_t", "ql_lut_log2", "QL_RECIP_CELLS", QL_RECIP_CELLS, 0, false,
                 log2_entry, log2_error,
                 "log2 of the reciprocals, u0.32. Worst error %.2e, absolute."},

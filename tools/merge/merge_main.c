@@ -16,12 +16,14 @@
 #include "lib/program/options.h"
 #include "lib/render/develop.h"
 #include "lib/render/fields.h"
+#include "lib/render/render_options.h"
 
 typedef struct {
     const char *picture;
     const char *save;
     ql_format_t format;
     double exposure;
+    ql_curve_t curve;
     bool quiet;
     option_list_t parts;
 } options_t;
@@ -41,6 +43,9 @@ static const option_t merging[] = {
                 .help = "of the display, widened to 8-bit RGB"},
         {"--exposure S", OPTION_REAL, AT(exposure), .min = -64, .max = 64,
                 .help = "stops brighter than the scene's own exposure"},
+        {"--curve C", OPTION_WORD, AT(curve), .words = render_words_curve,
+                .help = "how bright light is shown; filmic and reinhard let "
+                        "it roll off to white"},
         {"--quiet", OPTION_FLAG, AT(quiet),
                 .help = "do not warn of missing rows or samples"},
         OPTION_END};
@@ -64,10 +69,8 @@ static void check_options(const options_t *o)
     if (o->picture == NULL && o->save == NULL) {
         options_fail("missing -o FILE or --save-sums FILE");
     }
-    if ((options_given("--format") || options_given("--exposure")) &&
-            (o->picture == NULL || image_kind(o->picture) == IMAGE_PFM)) {
-        options_fail("'%s' needs '-o' with a .ppm or .png name",
-                options_given("--format") ? "--format" : "--exposure");
+    if (o->picture == NULL || image_kind(o->picture) == IMAGE_PFM) {
+        render_options_display();
     }
 }
 
@@ -367,6 +370,7 @@ int main(int argc, char **argv)
     if (o.picture != NULL) {
         how.kind = image_kind(o.picture);
         how.format = o.format;
+        how.curve = o.curve;
         how.exposure_q8 = (int16_t)lround(o.exposure * 256); /* < 2^15 */
         cli_out_open(&picture, o.picture);
         develop_write(&m.whole, &how, &picture);

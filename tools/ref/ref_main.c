@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "film/ql_curve.h"
 #include "qlux.h"
 #include "ref/ref.h"
 #include "lib/render/open_blob.h"
@@ -139,8 +140,12 @@ static void write_display(const job_t *job, cli_out_t *out)
     const sums_range_t range = {
             o->rows.first, o->rows.end, o->samples.first, o->samples.end};
     rounded_t rounded = {job, cli_alloc(o->settings.width, sizeof(ql_sum_t))};
-    const develop_t how = {
-            o->kind, o->format, o->settings.exposure_q8, round_row, &rounded};
+    const develop_t how = {.kind = o->kind,
+            .format = o->format,
+            .curve = ql_curve_of(&o->settings),
+            .exposure_q8 = o->settings.exposure_q8,
+            .row = round_row,
+            .from = &rounded};
     sums_t sums;
 
     memset(&sums, 0, sizeof sums);

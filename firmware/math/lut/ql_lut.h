@@ -30,6 +30,13 @@ extern const uint16_t ql_lut_recip[QL_RECIP_CELLS];
 #define QL_SRGB_STEPS   16
 extern const uint16_t ql_lut_srgb[QL_SRGB_OCTAVES * QL_SRGB_STEPS + 1];
 
+/* The curves of film/ql_curve.h: 16 cells an octave of [2^-9, 8], both ends
+ * included, u0.16; 1 is cut to 65535. */
+#define QL_CURVE_OCTAVES 12
+#define QL_CURVE_STEPS   16
+extern const uint16_t ql_lut_filmic[QL_CURVE_OCTAVES * QL_CURVE_STEPS + 1];
+extern const uint16_t ql_lut_reinhard[QL_CURVE_OCTAVES * QL_CURVE_STEPS + 1];
+
 /* log2(ql_lut_recip[i] / 2^15), u0.32. */
 extern const uint32_t ql_lut_log2[QL_RECIP_CELLS];
 

@@ -55,8 +55,9 @@ static bool lines_agree(
 {
     uint8_t wanted[BYTES_MAX] = {0}, got[BYTES_MAX] = {0};
     const ql_output_t output = {format, wanted};
-    const develop_t how = {
-            .format = format, .exposure_q8 = render->settings.exposure_q8};
+    const develop_t how = {.format = format,
+            .curve = ql_curve_of(&render->settings),
+            .exposure_q8 = render->settings.exposure_q8};
     image_t line;
     bool ok = true;
 
@@ -95,7 +96,8 @@ static uint64_t fill_sums(
 }
 
 /* With all samples, or as many as each pixel needs. */
-static void compare(const ql_scene_t *scene, uint32_t spp, uint16_t error_q16)
+static void compare(const ql_scene_t *scene, uint32_t spp, uint16_t error_q16,
+        ql_curve_t curve)
 {
     ql_settings_t settings = QL_SETTINGS_DEFAULT;
     const char *claim = error_q16 != 0 ? "sim_and_line_end_alike_in"
@@ -108,6 +110,7 @@ static void compare(const ql_scene_t *scene, uint32_t spp, uint16_t error_q16)
     settings.height = HEIGHT;
     settings.spp = spp;
     settings.exposure_q8 = -333;
+    settings.curve = curve;
 #if QL_CFG_ADAPTIVE
     settings.error_q16 = error_q16;
 #endif
@@ -210,11 +213,12 @@ int main(void)
     if (ql_blob_open(&scene, blob, size) != QL_OK) {
         cli_fail(CLI_INPUT, "the scene does not open");
     }
-    compare(&scene, 5, 0);
+    compare(&scene, 5, 0, QL_CURVE_SRGB);
+    compare(&scene, 3, 0, QL_CURVE_FILMIC);
     compare_steps(&scene);
     compare_ties();
 #if QL_CFG_ADAPTIVE
-    compare(&scene, 200, 0x4000);
+    compare(&scene, 200, 0x4000, QL_CURVE_REINHARD);
 #endif
     return failures != 0;
 }

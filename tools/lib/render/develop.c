@@ -67,6 +67,7 @@ static void develop_display(uint8_t *out, const sums_t *sums,
     for (uint32_t x = 0; x < width; x++) {
         ql_uq16_t linear[3];
         ql_film_display(pixels + x, sums_count(sums, x, y), exposure, linear);
+        ql_curve_roll_off(how->curve, linear);
         ql_tonemap_pixel(line, format, (uint16_t)x, (uint16_t)y, linear);
     }
     widen_line(out, line, format, width);

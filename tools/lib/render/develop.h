@@ -5,6 +5,7 @@
 #define DEVELOP_H
 
 #include "lib/image/image_file.h"
+#include "film/ql_curve.h"
 #include "film/ql_tonemap.h"
 #include "lib/sums/sums.h"
 
@@ -18,6 +19,7 @@ typedef struct {
                            exposure. Others: the bits of ql_render_line() in
                            the format, widened by widen_line() */
     ql_format_t format;  /* of the display */
+    ql_curve_t curve;    /* likewise */
     int16_t exposure_q8; /* stops, s7.8, brighter than the scene's exposure; not
                            of IMAGE_PFM */
     const ql_sum_t *(*row)(void *from, uint32_t y); /* width pixels, good until

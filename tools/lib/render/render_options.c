@@ -19,6 +19,7 @@ const char *const render_words_direct[] = {
 const char *const render_words_indirect[] = {
         "none", "cosine", "uniform", "brdf", NULL};
 const char *const render_words_lights[] = {"power", "all", "uniform", NULL};
+const char *const render_words_curve[] = {"srgb", "filmic", "reinhard", NULL};
 
 static const char *const pictures[] = {".ppm", ".pfm", ".png", NULL};
 static const char *const linear[] = {".pfm", NULL};
@@ -62,6 +63,12 @@ const option_t render_options_settings[] = {
                 .help = "end paths at random, by their throughput"},
         {"--exposure S", OPTION_REAL, AT(exposure), .min = -64, .max = 64,
                 .help = "stops brighter than the scene's own exposure"},
+#if QL_ROLL_OFF
+        {"--curve C", OPTION_WORD, AT(settings.curve),
+                .words = render_words_curve,
+                .help = "how bright light is shown; filmic and reinhard let "
+                        "it roll off to white"},
+#endif
         OPTION_END};
 
 const option_t render_options_error[] = {
@@ -216,6 +223,18 @@ static void warn_of_idle(const ql_settings_t *s, const ql_settings_t *defaults)
     }
 }
 
+void render_options_display(void)
+{
+    static const char *const options[] = {"--format", "--exposure", "--curve"};
+
+    for (unsigned i = 0; i < sizeof options / sizeof *options; i++) {
+        if (options_given(options[i])) {
+            options_fail(
+                    "'%s' needs '-o' with a .ppm or .png name", options[i]);
+        }
+    }
+}
+
 void render_options_parse(
         const program_t *program, int argc, char **argv, void *into)
 {
@@ -228,10 +247,8 @@ void render_options_parse(
     if (o->picture != NULL) {
         o->kind = image_kind(o->picture);
     }
-    if ((options_given("--format") || options_given("--exposure")) &&
-            (o->picture == NULL || o->kind == IMAGE_PFM)) {
-        options_fail("'%s' needs '-o' with a .ppm or .png name",
-                options_given("--format") ? "--format" : "--exposure");
+    if (o->picture == NULL || o->kind == IMAGE_PFM) {
+        render_options_display();
     }
     o->settings.width = (uint16_t)o->size.width; /* at most QL_IMAGE_MAX */
     o->settings.height = (uint16_t)o->size.height;

@@ -37,6 +37,7 @@ extern const char *const render_words_sampler[];
 extern const char *const render_words_direct[];
 extern const char *const render_words_indirect[];
 extern const char *const render_words_lights[];
+extern const char *const render_words_curve[];
 
 /* Parts of a program's table. Their fields lie in a render_options_t. */
 extern const option_t render_options_scene[];    /* SCENE.qlb */
@@ -56,6 +57,10 @@ extern const option_t render_options_run[];      /* --threads, --stats, .. */
  */
 void render_options_parse(
         const program_t *program, int argc, char **argv, void *into);
+
+/* There is no picture as a display shows it: options_fail() if one of
+ * --format, --exposure and --curve was given. */
+void render_options_display(void);
 
 /* Resolve rows for a picture of some height, or options_fail(). */
 void render_options_rows(render_options_t *options, uint32_t height);
