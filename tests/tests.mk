@@ -141,6 +141,7 @@ jobs_lint := lint/layers|tests/lint/check_layers.sh; \
 jobs_boards := $(foreach b,$(boards),boards/$b|tests/boards/test_boards.sh $b \
     || failed=1 && tests/bench/test_bench.sh $b && [ -z "$$failed" ];) \
     tools/trade|tests/tools/test_trade.sh; \
+    bench/cost|tests/bench/cost/test_cost.sh; \
     bench/pc|tests/bench/test_bench.sh pc; \
     boards/template|tests/boards/test_boards.sh template; \
     boards/stack|tests/tools/test_stack_report.sh;
@@ -156,7 +157,7 @@ jobs_matrix = $(shell tests/matrix/run_matrix.sh --jobs) \
 
 # What scripts run beside the programs.
 helpers := $(patsubst tests/%.c,$O/test/fine/%,$(wildcard \
-    tests/tools/*_main.c tests/tools/*/*_main.c))
+    tests/tools/*_main.c tests/tools/*/*_main.c)) $O/cost-model
 
 programs_of = $(filter $O/test/%,$(subst |, ,$(subst ;, ,$(1))))
 

@@ -3,6 +3,7 @@
 
 #include "light/ql_emit_triangle.h"
 
+#include "base/ql_diag.h"
 #include "light/ql_light.h"
 #include "math/vec/ql_vec_unit.h"
 #include "warp/ql_warp_plane.h"
@@ -179,10 +180,12 @@ static seen_t sample_solid_angle(const ql_scene_t *scene,
     if (height <= 0) {
         return SEEN_NOTHING;
     }
+    QL_COUNT(corners);
     if (!ql_warp_spherical_begin(&seen, corner_from(v[0], surface->p),
                 corner_from(v[1], surface->p), corner_from(v[2], surface->p))) {
         return SEEN_BADLY;
     }
+    QL_COUNT(spherical);
     if (!ql_emit_set_wi(
                 sample, surface, ql_warp_spherical(&seen, u.u1, u.u2))) {
         return SEEN_NOTHING;

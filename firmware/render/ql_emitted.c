@@ -11,6 +11,7 @@ void ql_emitted_add(const ql_context_t *context, const ql_rgb_t *throughput,
 {
     ql_uq31_t value[3];
 
+    QL_COUNT(lit);
     scale.e = ql_real_exponent((int32_t)scale.e + throughput->e);
     for (unsigned i = 0; i < 3; i++) {
         value[i] = ql_mulhi_u32_rounded(throughput->c[i], emission[i]);

@@ -84,6 +84,8 @@ static void add_samples(ql_render_t *render, const ql_camera_pixel_t *pixel,
         ql_uniform2_t u, lens;
         ql_ray_t ray;
 
+        QL_COUNT(samples);
+
         /* Draw a point of the pixel, and one of the lens if there is one. */
         ql_sampler_start(sampler, first + i);
         u = ql_sampler_2d(sampler, QL_DIM_PIXEL);

@@ -12,6 +12,7 @@ ql_real_t ql_mis_weight(ql_real_t h)
 {
     ql_real_t below;
 
+    QL_COUNT(balances);
     if (h.m == 0 || h.e < -93) {
         return h; /* h < 2^-61 */
     }
@@ -46,6 +47,8 @@ ql_real_t ql_mis_weight_of_ray(const ql_context_t *context,
     if (ray->counts != QL_COUNTS_MIS || !ql_light_find(scene, index, &light)) {
         return QL_REAL_ONE;
     }
+    QL_COUNT(weights);
+
     /* h = p / q: the lobe's density times the inverse of the emitter's */
     h = ql_real_mul(
             ray->pdf, ql_emit_inv_pdf(scene, ray->from, &ray->ray, tri, t));

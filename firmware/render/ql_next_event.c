@@ -119,6 +119,10 @@ static void sample_direction(const ql_context_t *context,
             !is_free(context, surface->p, light, &sample)) {
         return;
     }
+    QL_COUNT(values);
+    if (direct == QL_DIRECT_MIS) {
+        QL_COUNT(shares);
+    }
     ql_bsdf_eval(&vertex->bsdf, sample.wi, sample.cosine,
             ql_real_mul(sample.inv_pdf, ql_real_mul(QL_REAL_TWO_PI, weight)),
             direct == QL_DIRECT_MIS ? QL_MIS_BALANCE : QL_MIS_NONE, &r);
@@ -154,8 +158,10 @@ static void sample_light(const ql_context_t *context, const ql_vertex_t *vertex,
             ql_sampler_2d(context->sampler, dim + QL_DIM_LIGHT_POINT);
 
     if (is_point(context, vertex, light)) {
+        QL_COUNT(points);
         sample_point(context, vertex, light, weight, u);
     } else {
+        QL_COUNT(directions);
         sample_direction(context, vertex, light, weight, u);
     }
 }

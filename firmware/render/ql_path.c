@@ -73,6 +73,10 @@ static bool begin_vertex(const ql_context_t *context, const ql_path_ray_t *ray,
     }
 
     /* The rest costs more: the point, its normals, the lobes. */
+    QL_COUNT(vertices);
+    if (gloss != NULL) {
+        QL_COUNT(glossy);
+    }
     vertex->throughput = &ray->throughput;
     vertex->dim = QL_DIM_BOUNCE(bounce);
     vertex->tri_idx = hit->tri_idx;
@@ -128,6 +132,7 @@ static bool sample_ray(const ql_context_t *context, const ql_vertex_t *vertex,
 
     /* Sample the BSDF: a lobe if it has two, wi, and f cos / (pmf pdf). */
     if (ql_bsdf_is_glossy(bsdf)) {
+        QL_COUNT(lobes);
         pick = ql_sampler_1d(context->sampler,
                 dim + (first ? QL_DIM_CHOICE : QL_DIM_LOOK_CHOICE));
     }
@@ -156,6 +161,7 @@ static bool sample_ray(const ql_context_t *context, const ql_vertex_t *vertex,
     ray->specular = sample.specular;
     ray->counts = sample.specular ? plan->specular : plan->counts;
     if (by_mis) {
+        QL_COUNT(densities);
         ql_mis_begin(ray, pdf, &vertex->surface);
     }
     return ql_rgb_most(&ray->throughput) != 0;
@@ -172,6 +178,7 @@ static QL_NOINLINE void trace_emitter_rays(const ql_context_t *context,
     ql_hit_t hit;
 
     for (unsigned i = 0; i < plan->emitter_rays; i++) {
+        QL_COUNT(looks);
         if (sample_ray(context, vertex, &plan->emitter, dim, numbers, &ray)) {
             (void)trace_ray(context, &ray, &hit);
         }

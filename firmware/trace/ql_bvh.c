@@ -25,6 +25,7 @@
 
 #include "trace/ql_bvh.h"
 
+#include "base/ql_diag.h"
 #include "math/ql_real.h"
 #include "trace/ql_order.h"
 #include "trace/ql_sphere.h"
@@ -228,6 +229,7 @@ QL_INLINE bool box_hit(
 {
     extent_t z;
 
+    QL_COUNT(boxes);
     box_axis(scene, node, bits, p->kz, &z.centre, &z.half);
     return meets(p->z, z.centre, z.half) &&
            line_hit(scene, node, bits, &p->x, p->dz, z) &&
@@ -309,6 +311,7 @@ QL_INLINE int sphere_hit(const ql_blob_sphere_t *sphere, const ql_ray_t *ray,
     ql_uq30_t at = 0;
     const int side = ql_sphere_hit(sphere, ray, &at);
 
+    QL_COUNT(spheres);
     *det = (uint64_t)1 << 30;
     *t = at;
     return side;
@@ -319,6 +322,7 @@ QL_INLINE int sphere_hit(const ql_blob_sphere_t *sphere, const ql_ray_t *ray,
 QL_FAST_INLINE int tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
         const ql_ray_t *ray, uint64_t *det, uint64_t *t)
 {
+    QL_COUNT(triangles);
     return ql_tri_hit(scene, tri, ray, det, t);
 }
 
@@ -343,6 +347,7 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
         if (side != 0) {
             ql_hit_t found;
 
+            QL_COUNT(hits);
             found.t = parameter(t, det);
             found.tri_idx = (uint16_t)(tri - scene->triangles);
             found.front = side > 0;
@@ -390,6 +395,7 @@ QL_FAST_INLINE bool sphere_blocks(
 {
     ql_vec3_t to = ray->origin;
 
+    QL_COUNT(spheres);
     to.x += ray->direction.x;
     to.y += ray->direction.y;
     to.z += ray->direction.z;
@@ -449,6 +455,10 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
     probe_begin(&begun, axes, ray, hit == NULL);
     p = begun; /* a copy whose address stays here can live in registers */
 #endif
+    QL_COUNT(walks);
+    if (hit == NULL) {
+        QL_COUNT(segments);
+    }
     if (end == END_CLOSED) {
         probe_close(&p, axes, ray);
     }

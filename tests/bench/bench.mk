@@ -136,9 +136,22 @@ shrink: ## Variance of each strategy as a light shrinks: build/shrink.svg
 shrink: $O/qlux-scene $O/qlux-sim
 	@tools/sheet/shrink.sh
 
+# What events of a rendering take on each core (tools/lib/cost).
+
+$O/cost-model: $O/host/tests/bench/cost/cost_main.o $(io) $(fine) $O/flags/link
+	$(link)
+
+cost-table: ## Count and fit tools/lib/cost/cost_table.h: half an hour
+cost-table: $O/cost-model $O/qlux-scene
+	@MAKE='$(MAKE)' tests/bench/cost/count_cost.sh > $O/cost/rows
+	@$O/cost-model fit < $O/cost/rows > $O/cost/table.h && \
+	    cp $O/cost/table.h tools/lib/cost/cost_table.h
+	@$(MAKE) --no-print-directory $O/cost-model
+	@$O/cost-model 0.17 < $O/cost/rows
+
 budgets-update: ## Write what is measured into tests/budgets
 	tests/bench/test_bench.sh --update $(BOARDS)
 
 .PHONY: bench bench-boards bench-board bench-profile bench-board-profile \
     bench-pc bench-warps bench-warps-boards bench-warps-pc bench-strategies \
-    budgets-update shrink strategies
+    budgets-update cost-table shrink strategies

@@ -3,6 +3,7 @@
 
 #include "trace/surface/ql_surface_at.h"
 
+#include "base/ql_diag.h"
 #include "math/vec/ql_vec_unit.h"
 #include "trace/surface/ql_smooth.h"
 #include "trace/ql_sphere.h"
@@ -108,6 +109,7 @@ void ql_surface_at(const ql_scene_t *scene, const ql_ray_t *ray,
     ql_smooth_none(surface);
     if (ql_scene_normals(scene) != NULL &&
             ql_scene_sphere(scene, tri) == NULL) {
+        QL_COUNT(smooth);
         ql_smooth_at(scene, tri, ray, hit->front, surface);
     }
 }
