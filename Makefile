@@ -6,7 +6,7 @@
 #   make run BOARD=b SCENE=s    the same on an emulated board: build/s-b.ppm
 #   make test                   everything
 #
-# SCENE is a name in tests/scenes or the path of any .scene file. SPP=, SIZE=
+# SCENE is a name in tests/scenes or the path of a .scene or .obj. SPP=, SIZE=
 # and the like choose the picture; V=1 prints the commands; O=DIR builds in DIR.
 # The product needs a C99 compiler and GNU make 4.0; tools/dev/setup.sh installs
 # what the tests need.

@@ -4,6 +4,7 @@
 #ifndef FUZZ_H
 #define FUZZ_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -62,5 +63,8 @@ void fuzz_draw(const ql_scene_t *scene);
 /* Compile the file "s.scene" with nodes of both widths, open what comes of it;
  * draw the one of 16 bits. */
 void fuzz_compile(void);
+
+/* Compile the scene that the file "m.obj" stands for; draw it. */
+void fuzz_compile_bare(bool is_up_z);
 
 #endif

@@ -7,6 +7,7 @@
 #include "fuzz/fuzz.h"
 #include "lib/render/open_blob.h"
 #include "qlux.h"
+#include "scene/bare/bare.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
 #include "scene/script/read_scene.h"
@@ -59,7 +60,7 @@ void fuzz_draw(const ql_scene_t *scene)
     draw_adaptive(scene);
 }
 
-static void compile(unsigned node_bits)
+static void compile(text_t *text, unsigned node_bits)
 {
     const compile_options_t how = {node_bits, 4, true};
     ql_scene_t scene;
@@ -67,10 +68,8 @@ static void compile(unsigned node_bits)
     model_t model;
     uint8_t *blob;
     size_t size;
-    text_t text;
 
-    text_open(&text, "s.scene");
-    read_scene(&world, &text);
+    read_scene(&world, text);
     compile_scene(&model, &world, &how);
     blob = write_blob(&model, &size);
     open_blob_bytes(&scene, blob, size, "s.qlb");
@@ -80,11 +79,24 @@ static void compile(unsigned node_bits)
     free(blob);
     model_free(&model);
     world_free(&world);
-    text_close(&text);
+    text_close(text);
 }
 
 void fuzz_compile(void)
 {
-    compile(16);
-    compile(8);
+    text_t text;
+
+    text_open(&text, "s.scene");
+    compile(&text, 16);
+    text_open(&text, "s.scene");
+    compile(&text, 8);
+}
+
+void fuzz_compile_bare(bool is_up_z)
+{
+    const bare_t bare = {.path = "m.obj", .is_up_z = is_up_z, .floor = true};
+    text_t text;
+
+    text_of(&text, "m.obj", bare_describe(&bare));
+    compile(&text, 16);
 }

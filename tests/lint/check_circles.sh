@@ -14,8 +14,8 @@
 # The order in tools/, each may include those to its left:
 #   lib/program  lib/math  lib/image  lib/terminal  lib/sums  lib/render  figure
 #   and then the programs;
-#   of scene: world  fill  crease  lamp  foreign  read  script  mesh  touch
-#   blob  report  build, then others
+#   of scene: world  fill  crease  lamp  foreign  read  script  mesh  bare
+#   touch  blob  report  build, then others
 # Prints one claim a rule; exit 1 if any is broken.
 #
 # Example: tests/lint/check_circles.sh

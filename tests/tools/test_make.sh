@@ -111,6 +111,9 @@ touch "$work/my scenes/square.obj"
 build SCENE="$work/my scenes/it's my room.scene" all
 grep -q '^  SCENE' "$work/said" && grep -q '^  RENDER' "$work/said"
 say what_lies_beside_a_scene_makes_it_anew $?
+build run SCENE="$work/my scenes/square.obj" SCENE_OPTIONS='--floor'
+[ $? -eq 0 ] && [ "$(last_line)" = "$out/square.ppm" ]
+say an_obj_alone_is_a_scene_too $?
 mkdir "$work/more" && cp "$work/my scenes"/* "$work/more"
 build -n SCENE="$work/more/it's my room.scene" all
 grep -q '^  SCENE' "$work/said"
@@ -195,8 +198,8 @@ LIGHT_SAMPLES=256|use a number from 1 to 255
 TABLE_BITS=11|use a number from 5 to 10
 TABLE_LERP=2|use 0 or 1
 ROULETTE=yes|use 0 or 1
-SCENE=missing|use the path of a .scene file, or cornell, dents
-SCENE=no/such.scene|use the path of a .scene file, or cornell, dents
+SCENE=missing|use the path of a .scene or .obj file, or cornell, dents
+SCENE=no/such.scene|use the path of a .scene or .obj file, or cornell, dents
 BOARD=x firmware|use lm3s6965evb, microbit, mps2-an386 or sifive_e
 BOARD=microbit SMALL=2 firmware|SMALL=2: use 0 or 1
 BOARD=microbit INTERLACE=3 firmware|use a power of two from 1 to 16384

@@ -61,13 +61,13 @@ function is_number(text, first, last)
 function check_scene(name,    file, line)
 {
     file = value[name]
-    if (file !~ /\.scene$/)
+    if (file !~ /\.(scene|obj)$/)
         file = "tests/scenes/" file ".scene"
     if ((getline line < file) < 0)
-        wrong(name, "the path of a .scene file, or " either(scenes))
+        wrong(name, "the path of a .scene or .obj file, or " either(scenes))
     close(file)
     sub(/.*\//, "", file)
-    sub(/\.scene$/, "", file)
+    sub(/\.(scene|obj)$/, "", file)
     gsub(/[] \t'"$&();:*?<>|!{}\\~#%`,=@^+[]/, "_", file)
     scene_name = file
 }

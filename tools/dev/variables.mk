@@ -3,7 +3,7 @@
 #
 # After it every variable of tools/dev/variables.txt has its value, and
 #   scene          name of the picture's files: that of SCENE, _ for blanks
-#   scene_file     the path of the .scene; quote it for the shell
+#   scene_file     the path of the .scene or .obj; quote it for the shell
 #   scene_newer    FORCE if the scene, or what lies beside it, is newer
 #   sim_options    the picture in the words of qlux-sim
 #   board_gates    for the compiler of BOARD: what every source reads,
@@ -41,7 +41,7 @@ $(foreach word,$(chosen),$(eval override $(word)))
 # Words of make have no blanks: the path is never one, but quoted for the shell.
 override SCENE := $(or $(SCENE),cornell)
 scene_file := $(SCENE)
-ifeq ($(filter %.scene,$(subst $(space),_,$(SCENE))),)
+ifeq ($(filter %.scene %.obj,$(subst $(space),_,$(SCENE))),)
 scene_file := tests/scenes/$(SCENE).scene
 endif
 scene_newer := $(if $(shell f=$(call quote,$(scene_file)); d=$${f%/*}; \

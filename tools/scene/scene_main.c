@@ -11,6 +11,7 @@
  *     read    texts of meshes, materials and tables to a world
  *     script  the .scene: its lines, its own surfaces and materials
  *     mesh    a world on its grid, smooth corners, the tree
+ *     bare    the .scene that an OBJ alone stands for
  *     blob    a model and its bytes, a model and its text
  *     choose  the way of finding light that a model asks for
  *     report  what a model could not keep of a world
@@ -24,6 +25,7 @@
 
 #include "lib/program/options.h"
 #include "lib/render/open_blob.h"
+#include "scene/bare/bare.h"
 #include "scene/blob/dump_blob.h"
 #include "scene/blob/model.h"
 #include "scene/blob/parse_dump.h"
@@ -35,14 +37,17 @@
 #include "scene/scene_info.h"
 
 enum { NODES8, NODES16 }; /* --node-bits */
+enum { UP_Y, UP_Z };      /* --up */
 
 typedef struct {
     const char *input;
     const char *output;
     const char *features;
+    const char *script; /* --write-scene */
     unsigned nodes;
     unsigned leaf_max;
-    bool info, dump, quiet;
+    unsigned up;
+    bool info, dump, quiet, floor;
 } options_t;
 
 #define AT(field) OPTION_FIELD(options_t, field)
@@ -69,25 +74,48 @@ static const option_t making_blobs[] = {
                 .help = "write the gates of a core for this scene (.h)"},
         OPTION_END};
 
-static const option_section_t sections[] = {
-        {NULL, every_form}, {"To make a blob:", making_blobs}, {NULL, NULL}};
+static const char *const ups[] = {"y", "z", NULL};
+
+static const option_t from_objs[] = {
+        {"--up AXIS", OPTION_WORD, AT(up), .words = ups,
+                .help = "what is up in the OBJ"},
+        {"--floor", OPTION_FLAG, AT(floor), .help = "put it on a floor"},
+        {"--write-scene FILE", OPTION_FILE, AT(script),
+                .help = "write the .scene that it stands for, to edit"},
+        OPTION_END};
+
+static const option_section_t sections[] = {{NULL, every_form},
+        {"To make a blob:", making_blobs}, {"Of an OBJ alone:", from_objs},
+        {NULL, NULL}};
 
 static const program_t program = {.name = "qlux-scene",
         .about = "compile a scene into a blob, show and edit blobs",
         .usage = "IN.scene -o OUT.qlb [options]\tcompile\n"
+                 "IN.obj -o OUT.qlb [options]\tthe same, camera and light "
+                 "chosen\n"
                  "--info BLOB.qlb\tsay what is in a blob\n"
                  "--dump BLOB.qlb [-o TEXT]\tall of it as text\n"
                  "TEXT -o OUT.qlb\tand back, bit by bit",
         .sections = sections,
         .example = "qlux-scene tests/scenes/cornell.scene -o cornell.qlb"};
 
+/* The first option given of those that only an OBJ has, or NULL. */
+static const char *obj_option(void)
+{
+    return options_given("--up")            ? "--up"
+           : options_given("--floor")       ? "--floor"
+           : options_given("--write-scene") ? "--write-scene"
+                                            : NULL;
+}
+
 /* The first option given of those that only compiling has, or NULL. */
 static const char *compiling_option(void)
 {
-    return options_given("--node-bits")  ? "--node-bits"
-           : options_given("--leaf")     ? "--leaf"
-           : options_given("--features") ? "--features"
-                                         : NULL;
+    return obj_option() != NULL           ? obj_option()
+           : options_given("--node-bits") ? "--node-bits"
+           : options_given("--leaf")      ? "--leaf"
+           : options_given("--features")  ? "--features"
+                                          : NULL;
 }
 
 static void check_options(const options_t *options)
@@ -156,13 +184,63 @@ static void write_output(const model_t *model, const options_t *options)
     free(blob);
 }
 
-/* A scene, or the dump of a blob, to a blob. */
+/* Print a scene that was made, each line indented. */
+static void print_script(const char *script)
+{
+    fputs("qlux-scene: compiled as this scene:\n", stderr);
+    while (*script != '\0') {
+        const int length = (int)strcspn(script, "\n");
+
+        fprintf(stderr, "    %.*s\n", length, script);
+        script += length + 1; /* every line ends */
+    }
+}
+
+/* Open the scene that an OBJ stands for, and tell it. */
+static void open_obj(text_t *text, const options_t *options)
+{
+    const bare_t bare = {.path = options->input,
+            .beside = options->script,
+            .is_up_z = options->up == UP_Z,
+            .floor = options->floor};
+    char *script = bare_describe(&bare);
+    cli_out_t out;
+
+    if (!options->quiet) {
+        print_script(script);
+    }
+    if (options->script != NULL) {
+        cli_out_open(&out, options->script);
+        fputs(script, out.file);
+        cli_out_commit(&out);
+    }
+    text_of(text, options->script != NULL ? options->script : options->input,
+            script);
+}
+
+static void open_input(text_t *text, const options_t *options)
+{
+    if (!bare_is_name(options->input)) {
+        text_open(text, options->input);
+        if (!bare_is_text(text)) {
+            if (obj_option() != NULL) {
+                options_fail("'%s' is for an OBJ alone; %s is none",
+                        obj_option(), options->input);
+            }
+            return;
+        }
+        text_close(text);
+    }
+    open_obj(text, options);
+}
+
+/* A scene, an OBJ, or the dump of a blob, to a blob. */
 static void make_blob(const options_t *options)
 {
     model_t model;
     text_t text;
 
-    text_open(&text, options->input);
+    open_input(&text, options);
     if (is_dump(&text)) {
         if (options_given("--node-bits") || options_given("--leaf")) {
             options_fail("'%s' is for scenes; %s is the dump of a blob",

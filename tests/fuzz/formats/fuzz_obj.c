@@ -10,4 +10,5 @@ void fuzz_obj(const uint8_t *data, size_t size)
     fuzz_text("m.mtl", "newmtl a\nKd 0.5 0.5 0.5\nnewmtl b\nKe 1 1 1\n");
     fuzz_file("m.obj", data, size);
     fuzz_compile();
+    fuzz_compile_bare(size % 2 != 0);
 }

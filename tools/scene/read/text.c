@@ -50,6 +50,11 @@ void text_open(text_t *text, const char *path)
     begin_text(text, path, data, size);
 }
 
+void text_of(text_t *text, const char *path, char *data)
+{
+    begin_text(text, path, data, strlen(data));
+}
+
 void text_open_foreign(text_t *text, const char *path, notes_t *notes,
         const char *const *whole)
 {

@@ -31,6 +31,10 @@ typedef struct {
  * text. path must outlive the text. */
 void text_open(text_t *text, const char *path);
 
+/* Read a text that is in memory, malloc'd, as if it were the file at a path;
+ * text_close() frees it. */
+void text_of(text_t *text, const char *path, char *data);
+
 /* Read an OBJ or MTL file, which may have what foreign_clean() takes.
  *
  *   text   -  out
