@@ -138,10 +138,13 @@ warp-plots: $O/qlux-warp ## Draw the warps of tools/README.md: build/warp-*.svg
 	    -o $O/warp-cosine-power-$$m.svg || exit; done
 	@$< plot naive-hemisphere -o $O/warp-naive-hemisphere.svg
 
+tutorial: $(programs) ## Do what sim/FIRST_ROOM.md says: build/tutorial
+	@tools/dev/tutorial.sh sim/FIRST_ROOM.md $O/tutorial
+
 clean: ## Remove build/
 	rm -rf $O
 
 include hal/boards.mk tools/trade/trade.mk
 include tests/fuzz/fuzz.mk tests/tests.mk tests/bench/bench.mk
 
-.PHONY: all tools help run run-pc luts warp-plots clean
+.PHONY: all tools help run run-pc luts warp-plots tutorial clean
