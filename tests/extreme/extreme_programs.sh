@@ -19,7 +19,8 @@ mkdir -p "$work" || exit 3
 # scene NAME: what of it is left of standard input, as build/extreme/NAME.qlb
 scene() {
     cat >"$work/$1.scene" &&
-        "$build/qlux-scene" "$work/$1.scene" -o "$work/$1.qlb" --quiet \
+        "$build/qlux-scene" "$work/$1.scene" \
+            --direct area -o "$work/$1.qlb" --quiet \
             >"$work/$1.log" 2>&1
 }
 

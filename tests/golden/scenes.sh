@@ -22,6 +22,7 @@ compile()
 {
     for bits in 16 8; do
         "$scene" "$2" -o "$dir/$bits/$1.qlb" --quiet --node-bits "$bits" \
+            --direct area \
             2> "$dir/$bits/$1.log" || { cat "$dir/$bits/$1.log" >&2; exit 1; }
     done
 }

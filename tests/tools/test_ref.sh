@@ -65,7 +65,7 @@ printf '%s\n' 'mtllib slab.mtl' 'usemtl g' 'v -9 -9 0' 'v 9 -9 0' 'v 9 9 0' \
     'f 5 6 7 8' 'f 1 2 6 5' 'f 2 3 7 6' 'f 3 4 8 7' 'f 4 1 5 8' >slab.obj
 printf '%s\n' 'mesh slab.obj' 'sky 1 1 1' \
     'camera eye 0 0 9 look 0 0 0 fov 20' >slab.scene
-"$build/qlux-scene" slab.scene -o slab.qlb --quiet || exit 3
+"$build/qlux-scene" slab.scene --direct area -o slab.qlb --quiet || exit 3
 for program in qlux-sim qlux-sim-draft qlux-ref; do
     "$build/$program" slab.qlb -o slab.pfm --size 1x1 --spp 16 --quiet
     tail -c 12 slab.pfm | od -A n -t f4 | awk '
@@ -97,7 +97,7 @@ printf 'newmtl lamp\nKd 0 0 0\nKe 1 1 1\n' >ball.mtl
 printf 'newmtl glass\nKd 0 0 0\nillum 7\nNi 1.5\nTf 1 1 1\n' >>ball.mtl
 printf 'mesh ball.obj\nsphere 0 0 0 radius 4 material glass\n' >ball.scene
 echo 'camera eye 0 0 9 look 0 0 0 fov 40' >>ball.scene
-"$build/qlux-scene" ball.scene -o ball.qlb --quiet
+"$build/qlux-scene" ball.scene --direct area -o ball.qlb --quiet
 agrees a_lamp_in_glass_is_that_of_double ball.qlb --bounces 2
 
 # The same random numbers: what differs is arithmetic, by the limits that the

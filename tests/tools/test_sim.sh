@@ -14,7 +14,8 @@ merge=$build/qlux-merge
 if [ -n "${2:-}" ]; then
     (cd "$OLDPWD" && cat "$2") >scene.qlb || exit 3
 else
-    "$build/qlux-scene" "$root/tests/scenes/cornell.scene" -o scene.qlb \
+    "$build/qlux-scene" "$root/tests/scenes/cornell.scene" \
+        --direct area -o scene.qlb \
         >out.txt || exit 3
 fi
 
@@ -212,7 +213,7 @@ same merge_and_sim_agree_on_display_formats gray.png gray2.png
 sed 's/^exposure .*/exposure -0.25/' "$root/tests/scenes/cornell.scene" \
     >darker.scene && cp "$root/tests/scenes/cornell.obj" \
     "$root/tests/scenes/cornell.mtl" . 2>/dev/null
-"$build/qlux-scene" darker.scene -o darker.qlb --quiet >out.txt &&
+"$build/qlux-scene" darker.scene --direct area -o darker.qlb --quiet >out.txt &&
     "$sim" scene.qlb -o plain.ppm --save-sums plain.qls $small &&
     "$sim" darker.qlb -o brighter.ppm $small --exposure 1.25
 same stops_add_up_to_those_of_the_scene plain.ppm brighter.ppm
@@ -253,7 +254,8 @@ for stops in -18 18; do
 done
 sed 's/^Ke .*/Ke 0 0 0/' "$root/tests/scenes/cornell.mtl" >cornell.mtl &&
     cp "$root/tests/scenes/cornell.obj" "$root/tests/scenes/cornell.scene" . &&
-    "$build/qlux-scene" cornell.scene -o dark.qlb --quiet >out.txt 2>&1 &&
+    "$build/qlux-scene" cornell.scene --direct area -o dark.qlb --quiet \
+        >out.txt 2>&1 &&
     "$sim" dark.qlb -o a.ppm $small 2>err.txt && [ "$(cat err.txt)" = \
     'qlux-sim: warning: the picture is black: no light reaches the camera' ]
 say a_picture_without_light_says_so $?
@@ -339,7 +341,8 @@ grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 8 ]
 say stats_are_eight_numbers $?
 # One ray from the eye, one to the lamp, a path; times a weight that a dump was
 # given all three channels of all sixteen are cut.
-"$build/qlux-scene" "$root/tests/scenes/square.scene" -o square.qlb --quiet
+"$build/qlux-scene" "$root/tests/scenes/square.scene" \
+    --direct area -o square.qlb --quiet
 "$build/qlux-scene" --dump square.qlb >square.txt
 sed 's/^\(l .*\) -33 /\1 -10 /' square.txt >cut.txt
 "$build/qlux-scene" cut.txt -o cut.qlb --quiet
@@ -368,7 +371,8 @@ say contributions_that_are_cut_are_a_warning $?
 [ $? -eq 0 ] && [ ! -s out.txt ] && [ ! -s err.txt ]
 say without_them_nothing_is_said $?
 # In a closed room of white walls every path has all of its rays.
-"$build/qlux-scene" "$root/tests/scenes/furnace.scene" -o room.qlb --quiet
+"$build/qlux-scene" "$root/tests/scenes/furnace.scene" \
+    --direct area -o room.qlb --quiet
 "$sim" room.qlb -o n.ppm $small --direct none --bounces 3 --stats |
     head -n 4 >stats.txt
 [ "$(tr '\n' ' ' <stats.txt)" = "paths: 2240 closest-rays: 8960 \

@@ -57,6 +57,14 @@ static void print_gloss(FILE *file, const model_t *model)
     fprintf(file, "glass-materials: %" PRIu32 "\n", count[QL_GLOSS_GLASS]);
 }
 
+/* How often the sky is chosen among the lights, the last of which it is. */
+static double sky_chance(const model_t *model)
+{
+    const uint32_t cum = model->lights[model->lights_count - 1].cum;
+
+    return 1 - cum / 4294967296.0;
+}
+
 static void print_sky(FILE *file, const model_t *model)
 {
     if (model->sky_count == 0) {
@@ -66,6 +74,9 @@ static void print_sky(FILE *file, const model_t *model)
     } else {
         fprintf(file, "sky: %u %u\n", (unsigned)model->sky->width,
                 (unsigned)model->sky->height);
+    }
+    if (model->sky_count > 0) {
+        fprintf(file, "sky-chance: %.3g\n", sky_chance(model));
     }
     fprintf(file, "tables: %" PRIu32 "\n", model->tables_count);
     fprintf(file, "table-words: %" PRIu32 "\n", model->words_count);
@@ -101,20 +112,55 @@ static void print_lights(FILE *file, const model_t *model)
     fprintf(file, "radiance-unit: 2^%d\n", model->header.radiance_exp);
 }
 
+/* A way, in the words of the options: with DASH between them. */
+static void print_way(
+        FILE *file, unsigned direct, const char *dash, unsigned lights)
+{
+    fprintf(file, "%s%s%s", render_words_direct[direct], dash,
+            render_words_lights[lights]); /* checked when opened */
+}
+
+static void print_trial(FILE *file, unsigned trial)
+{
+    fprintf(file, "%s%.3g", trial == QL_TRIAL_MOST ? ">=" : "",
+            exp2(trial / 16.0));
+}
+
 /* What auto stands for, and how the ways that were tried compare. */
 static void print_choice(FILE *file, const ql_blob_header_t *h)
 {
-    fprintf(file, "auto: %s %s\n", render_words_direct[h->auto_direct],
-            render_words_lights[h->auto_lights]); /* checked when opened */
+    fputs("auto: ", file);
+    print_way(file, h->auto_direct, " ", h->auto_lights);
+    fputc('\n', file);
     for (unsigned i = 0; i < CHOICE_WAYS; i++) {
         if (h->trials[i] != QL_TRIAL_NONE) {
-            fprintf(file, "trial-%s-%s: %s%.3g\n",
-                    render_words_direct[choice_ways[i].direct],
-                    render_words_lights[choice_ways[i].lights],
-                    h->trials[i] == QL_TRIAL_MOST ? ">=" : "",
-                    exp2(h->trials[i] / 16.0));
+            fputs("trial-", file);
+            print_way(file, choice_ways[i].direct, "-", choice_ways[i].lights);
+            fputs(": ", file);
+            print_trial(file, h->trials[i]);
+            fputc('\n', file);
         }
     }
+}
+
+void print_choice_line(FILE *file, const model_t *model)
+{
+    const ql_blob_header_t *h = &model->header;
+    const char *before = " (work for the same error: ";
+
+    fputs("auto is ", file);
+    print_way(file, h->auto_direct, " by ", h->auto_lights);
+    for (unsigned i = 0; i < CHOICE_WAYS; i++) {
+        if (h->trials[i] != QL_TRIAL_NONE) {
+            fputs(before, file);
+            print_way(
+                    file, choice_ways[i].direct, " by ", choice_ways[i].lights);
+            fputc(' ', file);
+            print_trial(file, h->trials[i]);
+            before = ", ";
+        }
+    }
+    fputs(*before == ',' ? ")\n" : "\n", file);
 }
 
 void print_info(FILE *file, const model_t *model)

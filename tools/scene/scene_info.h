@@ -11,4 +11,8 @@
 /* Write lines of "key: value" about a model that read_blob() gave. */
 void print_info(FILE *file, const model_t *model);
 
+/* Write one line: what auto stands for, and how the ways that were tried
+ * compare. */
+void print_choice_line(FILE *file, const model_t *model);
+
 #endif

@@ -13,7 +13,7 @@
  *     mesh    a world on its grid, smooth corners, the tree
  *     bare    the .scene that an OBJ alone stands for
  *     blob    a model and its bytes, a model and its text
- *     choose  the way of finding light that a model asks for
+ *     choose  the way of finding light that a model asks for, by pilots
  *     report  what a model could not keep of a world
  *     build   a world on its grid to a model
  */
@@ -32,6 +32,7 @@
 #include "scene/blob/read_blob.h"
 #include "scene/blob/write_blob.h"
 #include "scene/build/compile.h"
+#include "scene/choose/choose.h"
 #include "scene/script/read_scene.h"
 #include "scene/scene_features.h"
 #include "scene/scene_info.h"
@@ -39,12 +40,17 @@
 enum { NODES8, NODES16 }; /* --node-bits */
 enum { UP_Y, UP_Z };      /* --up */
 
+/* --direct and --lights, in the order of choice_ways. */
+enum { DIRECT_AUTO, DIRECT_AREA };
+enum { LIGHTS_POWER, LIGHTS_ALL, LIGHTS_CHOICES };
+
 typedef struct {
     const char *input;
     const char *output;
     const char *features;
     const char *script; /* --write-scene */
     unsigned nodes;
+    unsigned direct, lights;
     unsigned leaf_max;
     unsigned up;
     bool info, dump, quiet, floor;
@@ -53,6 +59,9 @@ typedef struct {
 #define AT(field) OPTION_FIELD(options_t, field)
 
 static const char *const node_bits[] = {"8", "16", NULL};
+static const char *const direct[] = {
+        "auto", "area", "solid-angle", "mis", NULL};
+static const char *const lights[] = {"power", "all", NULL};
 
 static const option_t every_form[] = {
         {"FILE", OPTION_TEXT, AT(input), .required = true},
@@ -70,6 +79,11 @@ static const option_t making_blobs[] = {
         {"--leaf N", OPTION_NUMBER, AT(leaf_max), .min = 1, .max = QL_LEAF_MAX,
                 .help = "most triangles in a leaf; at most 12 with 8-bit "
                         "nodes"},
+        {"--direct D", OPTION_WORD, AT(direct), .words = direct,
+                .help = "what the blob calls auto; unless named it is what is "
+                        "best for the scene, by small pictures"},
+        {"--lights L", OPTION_WORD, AT(lights), .words = lights,
+                .help = "likewise, with a --direct that is named"},
         {"--features FILE", OPTION_FILE, AT(features),
                 .help = "write the gates of a core for this scene (.h)"},
         OPTION_END};
@@ -114,6 +128,8 @@ static const char *compiling_option(void)
     return obj_option() != NULL           ? obj_option()
            : options_given("--node-bits") ? "--node-bits"
            : options_given("--leaf")      ? "--leaf"
+           : options_given("--direct")    ? "--direct"
+           : options_given("--lights")    ? "--lights"
            : options_given("--features")  ? "--features"
                                           : NULL;
 }
@@ -140,6 +156,33 @@ static void check_options(const options_t *options)
     if (options->info && options->output != NULL) {
         options_fail("'--info' goes without '-o'");
     }
+    if (options_given("--lights") && options->direct == DIRECT_AUTO) {
+        options_fail("'--lights' goes with a '--direct' that is named");
+    }
+}
+
+/* What messages call the blob of a scene. */
+static const char *name_blob(const options_t *options)
+{
+    static char name[512];
+
+    snprintf(name, sizeof name, "the blob of %s", options->input);
+    return name;
+}
+
+/* Say which way of finding light is best, as named or by pilots. */
+static void choose(model_t *model, const options_t *options)
+{
+    const soft_t untried[CHOICE_WAYS] = {{0}};
+
+    if (options->direct == DIRECT_AUTO) {
+        choose_way(model, name_blob(options), options->quiet);
+    } else {
+        choice_set(model,
+                (options->direct - DIRECT_AREA) * LIGHTS_CHOICES +
+                        options->lights,
+                untried);
+    }
 }
 
 static void compile(model_t *model, text_t *text, const options_t *options)
@@ -153,6 +196,20 @@ static void compile(model_t *model, text_t *text, const options_t *options)
     read_scene(&world, text);
     compile_scene(model, &world, &how);
     world_free(&world);
+    choose(model, options);
+}
+
+/* A line that says how much is in the blob, and one about the choice. */
+static void print_summary(
+        const model_t *model, const options_t *options, size_t size)
+{
+    printf("%s: %" PRIu32 " triangles, ", options->output,
+            model->triangles_count - model->spheres_count);
+    if (model->spheres_count > 0) {
+        printf("%" PRIu32 " spheres, ", model->spheres_count);
+    }
+    printf("%" PRIu32 " lights, %zu bytes\n", model->lights_count, size);
+    print_choice_line(stdout, model);
 }
 
 static void write_output(const model_t *model, const options_t *options)
@@ -161,10 +218,8 @@ static void write_output(const model_t *model, const options_t *options)
     uint8_t *blob = write_blob(model, &size);
     cli_out_t out, features;
     ql_scene_t scene;
-    char name[512];
 
-    snprintf(name, sizeof name, "the blob of %s", options->input);
-    open_blob_bytes(&scene, blob, size, name);
+    open_blob_bytes(&scene, blob, size, name_blob(options));
     cli_out_open(&out, options->output);
     (void)fwrite(blob, 1, size, out.file);
     if (options->features != NULL) {
@@ -174,12 +229,7 @@ static void write_output(const model_t *model, const options_t *options)
     }
     cli_out_commit(&out);
     if (!options->quiet) {
-        printf("%s: %" PRIu32 " triangles, ", options->output,
-                model->triangles_count - model->spheres_count);
-        if (model->spheres_count > 0) {
-            printf("%" PRIu32 " spheres, ", model->spheres_count);
-        }
-        printf("%" PRIu32 " lights, %zu bytes\n", model->lights_count, size);
+        print_summary(model, options, size);
     }
     free(blob);
 }
@@ -242,7 +292,8 @@ static void make_blob(const options_t *options)
 
     open_input(&text, options);
     if (is_dump(&text)) {
-        if (options_given("--node-bits") || options_given("--leaf")) {
+        if (compiling_option() != NULL &&
+                strcmp(compiling_option(), "--features") != 0) {
             options_fail("'%s' is for scenes; %s is the dump of a blob",
                     compiling_option(), options->input);
         }

@@ -26,7 +26,7 @@ letter() {
     } >"$1.obj"
     printf 'mesh %s.obj\nimage 32 32\n' "$1" >"$1.scene"
     printf 'camera eye 1 1 -3.9 look 1 1 0 up 0 1 0 fov 110\n' >>"$1.scene"
-    "$build/qlux-scene" "$1.scene" -o "$1.qlb" --quiet 2>"$1.err"
+    "$build/qlux-scene" "$1.scene" --direct area -o "$1.qlb" --quiet 2>"$1.err"
 }
 printf 'newmtl floor\nKd 0.5\nnewmtl lamp\nKd 0\nKe 1\n' >a.mtl
 
@@ -45,7 +45,7 @@ shines_as() {
     for s in "$2" "$3"; do
         sed 's/^camera.*/camera eye 0 0 -1 look 0 0 -4 up 0 1 0 fov 120/' \
             "$s.scene" >"$s-floor.scene"
-        "$build/qlux-scene" "$s-floor.scene" -o "$s.qlb" --quiet
+        "$build/qlux-scene" "$s-floor.scene" --direct area -o "$s.qlb" --quiet
         "$build/qlux-sim" "$s.qlb" -o "$s.pfm" --quiet --spp 256 --bounces 0 \
             --direct area
     done
@@ -127,7 +127,7 @@ printf 'f 1 2 3 4\n f 1 2 5 4\nf 4 1 2 5\n' >>bent.obj
 printf "mesh bent.obj\nsky 1 1 1\n" >bent.scene
 printf "camera eye 0 0 9 look 0 0 0 fov 40\n" >>bent.scene
 expect bent_faces_are_counted 0 "bent.obj:7: .*bent by .* (2 times)" \
-    "$build/qlux-scene" bent.scene -o bent.qlb --quiet
+    "$build/qlux-scene" bent.scene --direct area -o bent.qlb --quiet
 
 # ---- smooth faces ----
 # ball FIRST-LINES: 8 by 16 faces on the unit sphere
@@ -156,7 +156,7 @@ picture() {
     printf "mesh ball.obj\n%s\nimage 32 32\n" "$2" >"$1.scene"
     printf "sphere 3 4 5 radius 1 material lamp\n" >>"$1.scene"
     printf 'camera eye 0 1 4 look 0 0 0 fov 36\n' >>"$1.scene"
-    "$build/qlux-scene" "$1.scene" -o "$1.qlb" --quiet 2>"$1.err"
+    "$build/qlux-scene" "$1.scene" --direct area -o "$1.qlb" --quiet 2>"$1.err"
     "$build/qlux-sim" "$1.qlb" -o "$1.pfm" --quiet --spp 64 --bounces 0
 }
 

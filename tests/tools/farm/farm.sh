@@ -14,7 +14,8 @@ trap 'stop; rm -rf "$work"' EXIT
 trap 'exit 3' INT TERM HUP
 
 size=30x23 spp=8
-"$build/qlux-scene" "$root/tests/scenes/furnace.scene" -o scene.qlb \
+"$build/qlux-scene" "$root/tests/scenes/furnace.scene" \
+    --direct area -o scene.qlb \
     >out.txt && "$build/qlux-sim" scene.qlb --size $size --spp $spp --quiet \
     -o one.png || exit 3
 cat >sim.sh <<END

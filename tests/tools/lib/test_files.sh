@@ -10,7 +10,8 @@ suite=tools/files
 sim=$build/qlux-sim
 small="--size 6x5 --spp 2 --quiet"
 
-"$build/qlux-scene" "$root/tests/scenes/furnace.scene" -o scene.qlb \
+"$build/qlux-scene" "$root/tests/scenes/furnace.scene" \
+    --direct area -o scene.qlb \
     >out.txt || exit 3
 "$sim" scene.qlb -o want.ppm --save-sums want.qls $small || exit 3
 "$sim" scene.qlb -o want.pfm $small || exit 3
@@ -76,7 +77,8 @@ say devices_and_names_of_their_own_are_not $?
 # ---- A dash
 
 cp "$root"/tests/scenes/furnace.* .
-"$build/qlux-scene" - -o - <furnace.scene 2>err.txt | cmp -s - scene.qlb &&
+"$build/qlux-scene" - --direct area -o - <furnace.scene 2>err.txt |
+    cmp -s - scene.qlb &&
     grep -q ' triangles, ' err.txt
 say qlux_scene_reads_and_writes_a_dash $?
 "$build/qlux-scene" - --dump -o - <scene.qlb | "$build/qlux-scene" - \

@@ -19,9 +19,10 @@ is() {
 
 # By hand: two quadrilaterals, one of them a light, each with corners of its own
 # and in a leaf of its own. One unit is 1 / 4096.
-"$scene" "$scenes/square.scene" -o square.qlb >out.txt 2>err.txt
+"$scene" "$scenes/square.scene" -o square.qlb --direct area >out.txt 2>err.txt
 [ ! -s err.txt ] && is the_summary_of_the_square <<'END'
 square.qlb: 4 triangles, 2 lights, 404 bytes
+auto is area by power
 END
 "$scene" --info square.qlb >out.txt
 is each_line_about_the_square <<'END'
@@ -58,7 +59,8 @@ END
 
 # Of the others, the same as their dumps have, whose lines are counted.
 for s in glossy sky smooth lens wild lights; do
-    "$scene" "$scenes/$s.scene" -o $s.qlb >summary.txt 2>err.txt
+    "$scene" "$scenes/$s.scene" -o $s.qlb --direct area --lights power \
+        >summary.txt 2>err.txt
     "$scene" --dump $s.qlb >dump.txt
     "$scene" --info $s.qlb | grep -v -e '^depth:' -e '^unit:' -e '^rounding:' \
         -e '^version:' -e '^crc32:' >out.txt
@@ -93,6 +95,8 @@ for s in glossy sky smooth lens wild lights; do
             print "lights: " count["l"] + 0
             print "radiance-unit: 2^" unit
             print "sky: " (sky == "" ? "none" : sky)
+            if (sky != "")
+                print "sky-chance: 1" # there are no lamps
             print "tables: " count["table"] + 0
             print "table-words: " words + 0
             print "lens: " (lens ? "yes" : "no")
@@ -112,6 +116,7 @@ for s in glossy sky smooth lens wild lights; do
     cat summary.txt >out.txt
     echo "$s.qlb: $(info triangles) triangles, $spheres$(info lights) lights," \
         "$(info bytes) bytes" >wanted.txt
+    echo "auto is area by power" >>wanted.txt
     is the_summary_of_$s <wanted.txt
 done
 
@@ -122,7 +127,7 @@ printf 'v %s\n' '0 0 0' '1 0 0' '0 1 0' '0 0 1' '0 1e-7 0' '1e-7 0 0' \
 printf 'f %s\n' '1 2 3' '1 2 4' '1 3 4' '2 3 4' '1 1 2' '1 2 2' '1 2 5' \
     '1 3 6' '1 6 7' >>a.obj
 printf 'mesh a.obj\ncamera eye 0 0 9 look 0 0 0 fov 40\nsky 1 1 1\n' >a.scene
-"$scene" a.scene -o a.qlb >summary.txt 2>out.txt
+"$scene" a.scene -o a.qlb --direct area >summary.txt 2>out.txt
 why='because the scene is 1 wide (a.obj)'
 is dropped_faces_are_counted_by_their_sort <<END
 qlux-scene: dropped 2 faces without area
@@ -131,10 +136,11 @@ END
 sed 's/, [0-9]* bytes$//' summary.txt >out.txt
 is what_is_left_is_counted <<'END'
 a.qlb: 4 triangles, 1 lights
+auto is area by power
 END
 sed '/^f 1 1 2/,$d' a.obj >b.obj
 sed 's/a.obj/b.obj/' a.scene >b.scene
-"$scene" b.scene -o b.qlb --quiet >out.txt 2>&1 &&
+"$scene" b.scene -o b.qlb --quiet --direct area >out.txt 2>&1 &&
     is nothing_dropped_is_silent </dev/null
 cmp -s a.qlb b.qlb
 say dropped_faces_leave_no_trace $?
@@ -148,17 +154,19 @@ printf '%s\n' 'mtllib a.mtl' 'v 0 0 0' 'v 1 0 0' 'v 0 1 0' 'v 0 0 1' 'f 1 2 4' \
     cat b.obj
     printf '%s\n' 'f 3 1 2' 'v 1 0 0' 'f 5 -3 1' 'f 1 2 3'
 } >a.obj
-"$scene" b.scene -o b.qlb --quiet &&
-    "$scene" a.scene -o a.qlb --quiet 2>out.txt &&
+"$scene" b.scene -o b.qlb --quiet --direct area &&
+    "$scene" a.scene -o a.qlb --quiet --direct area 2>out.txt &&
     is doubled_faces_are_counted <<'END'
 qlux-scene: dropped 3 faces that repeat another's corners, in its order
 END
 cmp -s a.qlb b.qlb
 say doubled_faces_leave_no_trace $?
 echo 'f 1 3 2' >>a.obj
-"$scene" a.scene -o a.qlb 2>/dev/null | sed 's/, [0-9]* bytes$//' >out.txt
+"$scene" a.scene -o a.qlb --direct area 2>/dev/null |
+    sed 's/, [0-9]* bytes$//' >out.txt
 is the_other_side_of_a_face_is_kept <<'END'
 a.qlb: 3 triangles, 3 lights
+auto is area by power
 END
 
 exit $((failures != 0))

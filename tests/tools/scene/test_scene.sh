@@ -11,6 +11,11 @@ scene=$build/qlux-scene
 scenes=$root/tests/scenes
 mkdir in
 
+# What auto is takes time to find out, and is not what is tested here.
+compile() {
+    "$scene" "$@" --direct area
+}
+
 # Nothing in the folder but the inputs and the logs.
 is_clean() {
     [ "$(ls -A | grep -c -v -e '^in$' -e '^out.txt$' -e '^err.txt$')" -eq 0 ]
@@ -40,27 +45,27 @@ reset_input() {
 bad_scene() {
     reset_input
     printf "$4" >in/a.scene
-    expect "$1" 2 "$2: $3" "$scene" in/a.scene -o out.qlb
+    expect "$1" 2 "$2: $3" compile in/a.scene -o out.qlb
 }
 
 # bad_obj CLAIM LINE TEXT LINES: what follows the four vertices is refused
 bad_obj() {
     reset_input
     printf "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n$4" >in/a.obj
-    expect "$1" 2 "in/a.obj:$2: $3" "$scene" in/a.scene -o out.qlb
+    expect "$1" 2 "in/a.obj:$2: $3" compile in/a.scene -o out.qlb
 }
 
 bad_mtl() {
     reset_input
     printf "$4" >in/a.mtl
-    expect "$1" 2 "in/a.mtl:$2: $3" "$scene" in/a.scene -o out.qlb
+    expect "$1" 2 "in/a.mtl:$2: $3" compile in/a.scene -o out.qlb
 }
 
 # good_obj CLAIM TRIANGLES LINES: what follows the four vertices is accepted
 good_obj() {
     reset_input
     printf "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n$3" >in/a.obj
-    "$scene" in/a.scene -o out.qlb --quiet 2>err.txt &&
+    compile in/a.scene -o out.qlb --quiet 2>err.txt &&
         [ "$("$scene" --info out.qlb | sed -n 's/^triangles: //p')" = "$2" ]
     say "$1" $?
     rm -f out.qlb
@@ -74,12 +79,12 @@ warns() { # CLAIM TIMES TEXT: how often the last command said it
 # ---- materials by their names ----
 # same_blob CLAIM: the scene in in/ gives the blob in/one.qlb
 same_blob() {
-    "$scene" in/a.scene -o in/two.qlb --quiet 2>err.txt &&
+    compile in/a.scene -o in/two.qlb --quiet 2>err.txt &&
         cmp -s in/one.qlb in/two.qlb
     say "$1" $?
 }
 reset_input
-"$scene" in/a.scene -o in/one.qlb --quiet
+compile in/a.scene -o in/one.qlb --quiet
 printf 'newmtl brighter\nKd 0.1 0 0\nKe 1000 1000 1000\n' >>in/a.mtl
 same_blob a_material_without_surfaces_changes_nothing
 reset_input
@@ -96,12 +101,12 @@ same_blob a_name_may_have_a_hash_in_it
 # ---- usage ----
 reset_input
 expect no_arguments_are_refused 1 'missing FILE' "$scene"
-expect no_output_is_refused 1 'missing -o FILE' "$scene" in/a.scene
-expect node_bits_12_is_refused 1 '12' "$scene" in/a.scene -o o --node-bits 12
-expect leaf_0_is_refused 1 '--leaf' "$scene" in/a.scene -o o --leaf 0
-expect leaf_14_is_refused 1 '--leaf' "$scene" in/a.scene -o o --leaf 14
+expect no_output_is_refused 1 'missing -o FILE' compile in/a.scene
+expect node_bits_12_is_refused 1 '12' compile in/a.scene -o o --node-bits 12
+expect leaf_0_is_refused 1 '--leaf' compile in/a.scene -o o --leaf 0
+expect leaf_14_is_refused 1 '--leaf' compile in/a.scene -o o --leaf 14
 expect leaf_13_is_refused_with_8_bit_nodes 1 'expected 1 to 12' \
-    "$scene" in/a.scene -o o --leaf 13 --node-bits 8
+    compile in/a.scene -o o --leaf 13 --node-bits 8
 expect info_with_a_leaf_is_refused 1 "'--info' goes without '--leaf'" \
     "$scene" --info x --leaf 2
 expect info_with_an_output_is_refused 1 "'--info' goes without '-o'" \
@@ -112,23 +117,23 @@ expect info_and_dump_together_are_refused 1 '--info' "$scene" --info --dump x
 expect a_missing_scene_is_exit_3 3 'in/none' "$scene" in/none -o out.qlb
 printf 'mesh none.obj\n' >in/a.scene
 expect a_missing_mesh_is_exit_3_with_line 3 'in/a.scene:1: ' \
-    "$scene" in/a.scene -o out.qlb
+    compile in/a.scene -o out.qlb
 reset_input
 expect a_missing_folder_is_exit_3 3 'none/out.qlb' \
-    "$scene" in/a.scene -o none/out.qlb
+    compile in/a.scene -o none/out.qlb
 expect a_full_device_is_exit_3 3 '/dev/full' \
-    "$scene" in/a.scene -o /dev/full
+    compile in/a.scene -o /dev/full
 expect a_full_disk_leaves_nothing 3 'out.qlb' sh -c \
     "ulimit -f 1; exec '$scene' '$scenes/cornell.scene' -o out.qlb"
 expect a_dump_to_a_full_device_is_exit_3 3 'write' sh -c "
     '$scene' in/a.scene -o in/a.qlb --quiet &&
     '$scene' --dump in/a.qlb >/dev/full"
 expect features_to_nowhere_leave_no_blob 3 'none/f.h' \
-    "$scene" in/a.scene -o out.qlb --features none/f.h
+    compile in/a.scene -o out.qlb --features none/f.h
 printf 'old' >in/keep.qlb
 printf 'nonsense\n' >in/a.scene
 expect a_failure_keeps_the_old_output 2 'in/a.scene:1: ' \
-    "$scene" in/a.scene -o in/keep.qlb
+    compile in/a.scene -o in/keep.qlb
 [ "$(cat in/keep.qlb)" = old ]
 say the_old_output_is_untouched $?
 
@@ -179,7 +184,7 @@ camera eye 0 0 1000000 look 0 0 0 fov 40\n'
 reset_input
 printf 'mesh a.obj\0' >in/a.scene
 expect a_binary_scene_is_refused 2 'byte 10 is zero' \
-    "$scene" in/a.scene -o out.qlb
+    compile in/a.scene -o out.qlb
 
 # ---- lens ----
 bad_scene a_lens_needs_a_focus $a:1 'expected lens radius' 'lens radius 1\n'
@@ -197,9 +202,9 @@ bad_scene a_second_lens_is_refused $a:2 "expected one 'lens'" \
 bad_scene a_lens_wider_than_any_is_refused $a:3 'expected a lens at most 256' \
     "mesh a.obj\n${cam}lens radius 257 focus 1\n"
 reset_input
-"$scene" in/a.scene -o in/one.qlb --quiet
+compile in/a.scene -o in/one.qlb --quiet
 printf 'lens radius 0 focus 3\n' >>in/a.scene
-"$scene" in/a.scene -o in/two.qlb --quiet && cmp -s in/one.qlb in/two.qlb
+compile in/a.scene -o in/two.qlb --quiet && cmp -s in/one.qlb in/two.qlb
 say a_lens_of_radius_0_is_a_pinhole $?
 
 # ---- sphere ----
@@ -220,12 +225,12 @@ found 'nix'" \
 printf "mesh b.obj\n${cam}sphere 0 0 0 radius 1 material ghost\n" >$a
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl ghost\nf 1 2 3\n' >in/b.obj
 expect a_name_that_only_faces_use_is_no_material 2 "$a:3: expected a material" \
-    "$scene" $a -o out.qlb
+    compile $a -o out.qlb
 reset_input
 printf 'mtllib a.mtl\n' >in/a.obj
 (printf 'sphere 0 0 0 radius 1 material w\n' && cat in/a.scene &&
     printf 'sphere 2 0 0 radius 1e-6 material w\n') >in/b.scene
-"$scene" in/b.scene -o in/one.qlb --quiet 2>err.txt &&
+compile in/b.scene -o in/one.qlb --quiet 2>err.txt &&
     [ "$("$scene" --info in/one.qlb | grep -c -e '^triangles: 0$' \
         -e '^spheres: 1$' -e '^lights: 1$' -e '^vertices: 0$')" = 4 ]
 say a_mesh_without_faces_gives_its_materials_to_spheres $?
@@ -247,7 +252,7 @@ bad_scene a_second_sky_is_refused $a:2 "expected one 'sky'" \
     'sky 1 1 1\nsky 1 1 1\n'
 printf 'sky none.pfm\n' >in/a.scene
 expect a_missing_sky_is_exit_3_with_line 3 "$a:1: cannot read the sky" \
-    "$scene" $a -o out.qlb
+    compile $a -o out.qlb
 cat "$scenes/sky.pfm" >in/s.pfm # writable, whatever the tree is
 bad_scene words_after_the_map_are_refused $a:1 "expected sky FILE [rotate" \
     'sky s.pfm turn 3\n'
@@ -260,7 +265,7 @@ bad_sky() {
     reset_input
     printf "$3" >in/s.pfm
     printf 'sky s.pfm\n' >>in/a.scene
-    expect "$1" 2 "in/s.pfm: $2" "$scene" in/a.scene -o out.qlb
+    expect "$1" 2 "in/s.pfm: $2" compile in/a.scene -o out.qlb
 }
 one='\0\0\200\077' minus='\0\0\200\277' nan='\0\0\300\177' zero='\0\0\0\0'
 bad_sky a_map_of_text_is_refused 'byte 0: expected a PFM' 'P6 1 1 255 abc'
@@ -272,7 +277,7 @@ reset_input
 { printf 'Pf\n1 4097\n-1\n'; head -c 16388 /dev/zero; } >in/s.pfm
 printf 'sky s.pfm\n' >>in/a.scene
 expect a_map_of_4097_rows_is_refused 2 'at most 4096 by 4096 pixels' \
-    "$scene" in/a.scene -o out.qlb
+    compile in/a.scene -o out.qlb
 bad_sky a_map_without_scale_is_refused 'byte 7: expected a scale' 'PF\n1 1\nx\n'
 bad_sky a_cut_map_is_refused 'byte 10: the pixels end too early' \
     "PF\n1 1\n-1\n$one$one"
@@ -291,16 +296,16 @@ reset_input
 printf "Pf\n1 1\n-1\n\1\0\0\0" >in/s.pfm
 printf 'sky s.pfm\n' >>in/a.scene
 expect a_map_too_dim_beside_its_lights_is_refused 2 'less than 2^32 times' \
-    "$scene" $a -o out.qlb
+    compile $a -o out.qlb
 
 # same_sky CLAIM BYTES BYTES: two maps that give the same blob
 same_sky() {
     reset_input
     printf 'sky s.pfm\n' >>in/a.scene
     printf "$2" >in/s.pfm
-    "$scene" in/a.scene -o in/one.qlb --quiet
+    compile in/a.scene -o in/one.qlb --quiet
     printf "$3" >in/s.pfm
-    "$scene" in/a.scene -o in/two.qlb --quiet && cmp -s in/one.qlb in/two.qlb
+    compile in/a.scene -o in/two.qlb --quiet && cmp -s in/one.qlb in/two.qlb
     say "$1" $?
 }
 same_sky both_byte_orders_of_a_map_are_read \
@@ -318,9 +323,9 @@ chmod -R u+w in
     grep -q '^sky 0x00000000 0x00000000 0x00000000  0xc0000000  32 16  0$'
 say a_map_turned_back_by_90_begins_at_three_quarters $?
 reset_input
-"$scene" in/a.scene -o in/one.qlb --quiet
+compile in/a.scene -o in/one.qlb --quiet
 printf 'sky 0 0 0\n' >>in/a.scene
-"$scene" in/a.scene -o in/two.qlb --quiet && cmp -s in/one.qlb in/two.qlb
+compile in/a.scene -o in/two.qlb --quiet && cmp -s in/one.qlb in/two.qlb
 say a_black_sky_is_none $?
 
 # ---- table ----
@@ -329,7 +334,7 @@ bad_table() {
     reset_input
     printf "$4" >in/t.txt
     printf 'table t.txt\n' >>in/a.scene
-    expect "$1" 2 "in/t.txt:$2: $3" "$scene" in/a.scene -o out.qlb
+    expect "$1" 2 "in/t.txt:$2: $3" compile in/a.scene -o out.qlb
 }
 bad_table an_empty_table_is_refused 1 'expected dims D cells' '# nothing\n'
 bad_table a_table_without_dims_is_refused 1 'expected dims D cells' '1 2 3\n'
@@ -356,7 +361,7 @@ bad_table a_table_of_zeros_is_refused 2 'expected a weight above 0' \
 reset_input
 printf 'table none.txt\n' >>in/a.scene
 expect a_missing_table_is_exit_3_with_line 3 "$a:3: cannot read the table" \
-    "$scene" $a -o out.qlb
+    compile $a -o out.qlb
 reset_input
 printf '# a comment\ndims 2  cells 4 3 # x, then y\n' >in/t.txt
 printf '1 1 1 1\n0 0 0 0 # an empty row\n0 4\n0 4\n' >>in/t.txt
@@ -421,7 +426,7 @@ bad_mtl a_spectral_kd_is_refused 2 'expected a colour for Kd as RGB' \
 reset_input
 printf 'newmtl w\nKd 2 0 0\nKs 1 1 1\nillum 9\n' >in/a.mtl
 printf 'map_Kd a.png\nmap_Kd b.png\n' >>in/a.mtl
-"$scene" in/a.scene -o out.qlb --quiet 2>err.txt
+compile in/a.scene -o out.qlb --quiet 2>err.txt
 say unmodelled_keys_of_materials_are_no_errors $?
 warns kd_above_1_is_reported 1 "in/a.mtl:2: Kd of 'w' clamped"
 warns other_illuminations_are_reported 1 \
@@ -435,14 +440,14 @@ reset_input
 printf 'newmtl w\nKa 1 1 1\nKd 1 0 0\nKs 0 0 0\nNs 10\n' >in/a.mtl
 printf 'Ni 1.45\nd 1\nillum 2\n' >>in/a.mtl
 printf 'sky 1 1 1\n' >>in/a.scene
-"$scene" in/a.scene -o out.qlb --quiet 2>err.txt && [ ! -s err.txt ]
+compile in/a.scene -o out.qlb --quiet 2>err.txt && [ ! -s err.txt ]
 say what_every_exporter_writes_is_silent $?
 rm -f out.qlb
 reset_input
 cp in/a.mtl 'in/two words.mtl'
 sed 's/a.mtl/two words.mtl/' in/a.obj >in/b.obj
 sed 's/a.obj/b.obj/' in/a.scene >in/b.scene
-"$scene" in/b.scene -o out.qlb --quiet 2>err.txt && [ ! -s err.txt ]
+compile in/b.scene -o out.qlb --quiet 2>err.txt && [ ! -s err.txt ]
 say a_library_name_may_hold_blanks $?
 rm -f out.qlb
 
@@ -455,7 +460,7 @@ bad_mtl a_glass_of_ni_0_is_refused 3 'expected a Ni' \
 gloss() {
     reset_input
     printf "newmtl w\n$2" >in/a.mtl
-    "$scene" in/a.scene -o in/one.qlb --quiet 2>err.txt &&
+    compile in/a.scene -o in/one.qlb --quiet 2>err.txt &&
         [ "$("$scene" --dump in/one.qlb |
             sed -n 's/  0x0* 0x0* 0x0*$//; /^[mg] /p' |
             tr '\n' ' ' | sed 's/0x//g; s/ $//')" = "$3" ]
@@ -525,7 +530,7 @@ flat='v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0.5\n'
 normals() {
     reset_input
     printf "$flat$2" >in/a.obj
-    "$scene" in/a.scene -o in/one.qlb --quiet 2>err.txt &&
+    compile in/a.scene -o in/one.qlb --quiet 2>err.txt &&
         [ "$("$scene" --dump in/one.qlb | sed -n 's/^vn //p' | tr '\n' ',')" = \
             "$3" ]
     say "$1" $?
@@ -574,8 +579,8 @@ for s in square furnace sky; do
             print ""; next }
         { print }' "$scenes/$s.obj" >in/$s.obj
     cp "$scenes/$s.mtl" "$scenes/$s.scene" in/
-    "$scene" in/$s.scene -o in/one.qlb --quiet &&
-        "$scene" "$scenes/$s.scene" -o in/two.qlb --quiet &&
+    compile in/$s.scene -o in/one.qlb --quiet &&
+        compile "$scenes/$s.scene" -o in/two.qlb --quiet &&
         cmp -s in/one.qlb in/two.qlb
     say ${s}_exported_with_flat_normals_costs_nothing $?
 done
@@ -589,7 +594,7 @@ for s in cornell square wild; do
         tr '\n' '\r' <in/lf/$f >in/cr/$f
     done
     for e in lf crlf cr; do
-        "$scene" in/$e/$s.scene -o in/$s.$e.qlb --quiet 2>err.txt
+        compile in/$e/$s.scene -o in/$s.$e.qlb --quiet 2>err.txt
     done
     cmp -s in/$s.lf.qlb in/$s.crlf.qlb
     say ${s}_with_cr_lf_gives_the_same_bytes $?
@@ -601,7 +606,7 @@ done
 for path in "$scenes"/*.scene in/a.scene; do
     s=$(basename "$path" .scene)
     for bits in 8 16; do
-        "$scene" "$path" -o in/one.qlb --node-bits $bits --quiet 2>err.txt &&
+        compile "$path" -o in/one.qlb --node-bits $bits --quiet 2>err.txt &&
             "$scene" --dump in/one.qlb -o in/one.txt &&
             "$scene" --dump in/one.qlb >in/two.txt &&
             cmp -s in/one.txt in/two.txt &&
@@ -610,7 +615,7 @@ for path in "$scenes"/*.scene in/a.scene; do
         say ${s}_comes_back_from_its_dump_with_$bits $?
     done
 done
-"$scene" "$scenes/cornell.scene" -o in/c.qlb --quiet
+compile "$scenes/cornell.scene" -o in/c.qlb --quiet
 "$scene" --dump in/c.qlb >in/c.txt
 sed 's/^depth .*/depth 1/' in/c.txt >in/d.txt
 expect a_dump_that_makes_no_sense_is_refused 2 'in/d.txt' \
@@ -636,7 +641,7 @@ expect a_dump_without_du_is_refused 2 "expected a 'du' line before the end" \
 awk '!/^n / || seen++' in/c.txt >in/d.txt
 expect half_a_pair_is_refused 2 "expected a 'n' line before the end" \
     "$scene" in/d.txt -o out.qlb
-"$scene" "$scenes/cornell.scene" -o in/c8.qlb --node-bits 8 --quiet
+compile "$scenes/cornell.scene" -o in/c8.qlb --node-bits 8 --quiet
 "$scene" --dump in/c8.qlb | awk '!/^n8/ || seen++' >in/d.txt
 line=$(grep -n '^p8' in/d.txt | sed -n '2s/:.*//p')
 expect a_pair_of_one_8_bit_node_is_refused 2 \
@@ -679,7 +684,7 @@ info() { # KEY: its value
 [ "$(info triangles) $(info lights) $(info materials) $(info node-bits)" = \
     "32 2 4 16" ] && [ "$(info bytes)" = "$(wc -c <in/c.qlb | tr -d ' ')" ]
 say info_of_the_cornell_box_is_true $?
-"$scene" "$scenes/wild.scene" -o in/w.qlb --quiet --features in/w.h 2>err.txt
+compile "$scenes/wild.scene" -o in/w.qlb --quiet --features in/w.h 2>err.txt
 grep -q '^#define QL_CFG_TWO_SIDED 1$' in/w.h &&
     grep -q '^#define QL_CFG_NODE8 0$' in/w.h &&
     grep -q '^#define QL_CFG_BVH_STACK 4$' in/w.h
@@ -687,7 +692,7 @@ say features_say_what_a_scene_needs $?
 
 # needs SCENE GATES: exactly these gates of the header are 1
 needs() {
-    "$scene" "$scenes/$1.scene" -o in/n.qlb --quiet --features in/n.h 2>err.txt
+    compile "$scenes/$1.scene" -o in/n.qlb --quiet --features in/n.h 2>err.txt
     [ "$(sed -n 's/^#define QL_CFG_\([A-Z_0-9]*\) 1$/\1/p' in/n.h |
         tr '\n' ' ')" = "$2 " ]
     say ${1}_needs_its_features_and_no_more $?
@@ -700,7 +705,7 @@ needs smooth 'NODE16 LIGHTS SMOOTH CONTACT'
 needs wild 'NODE16 LIGHTS TWO_SIDED SMOOTH MIRROR GLASS CONTACT ORDER'
 [ "$(grep -c '^#define QL_CFG_' in/n.h)" = 17 ]
 say every_gate_is_said $?
-"$scene" "$scenes/sky.scene" -o in/n.qlb --quiet
+compile "$scenes/sky.scene" -o in/n.qlb --quiet
 "$scene" --info in/n.qlb >in/info.txt
 [ "$(info triangles) $(info spheres) $(info phong-materials) $(info sky)" = \
     "22 2 1 32 16" ] && [ "$(info tables) $(info table-words) $(info lens)" = \
@@ -713,7 +718,7 @@ say wild_has_ten_triangles $?
 block() { # NAME: a code block of BLOB.md
     sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$root/firmware/BLOB.md" | sed "1d;\$d"
 }
-"$scene" "$scenes/square.scene" -o in/s.qlb --quiet
+compile "$scenes/square.scene" -o in/s.qlb --quiet
 block dump >in/s.txt
 "$scene" --dump in/s.qlb | cmp -s - in/s.txt
 say the_dump_in_the_specification_is_true $?
@@ -731,9 +736,9 @@ awk 'BEGIN {
     }
 }' >in/a.obj
 expect more_than_65535_triangles_are_refused 2 'found 65536' \
-    "$scene" in/a.scene -o out.qlb
+    compile in/a.scene -o out.qlb
 sed '$d' in/a.obj >in/b.obj
-"$scene" in/b.scene -o in/b.qlb --quiet 2>err.txt &&
+compile in/b.scene -o in/b.qlb --quiet 2>err.txt &&
     [ "$("$scene" --info in/b.qlb | sed -n 's/^triangles: //p')" = 65535 ]
 say exactly_65535_triangles_about_one_point_compile $?
 
@@ -741,8 +746,8 @@ say exactly_65535_triangles_about_one_point_compile $?
 # The CRC-32 of each blob, with 16-bit and with 8-bit nodes, whatever compiler
 # and machine made it.
 while read -r s crc16 crc8; do
-    "$scene" "$scenes/$s.scene" -o in/one.qlb --quiet 2>err.txt
-    "$scene" "$scenes/$s.scene" -o in/two.qlb --quiet --node-bits 8 2>err.txt
+    compile "$scenes/$s.scene" -o in/one.qlb --quiet 2>err.txt
+    compile "$scenes/$s.scene" -o in/two.qlb --quiet --node-bits 8 2>err.txt
     [ "$("$scene" --info in/one.qlb | sed -n 's/^crc32: //p')" = "$crc16" ] &&
         [ "$("$scene" --info in/two.qlb | sed -n 's/^crc32: //p')" = "$crc8" ]
     say ${s}_is_the_same_blob_on_every_host $?

@@ -11,7 +11,8 @@ sim=$build/qlux-sim
 merge=$build/qlux-merge
 patch=$build/test/fine/tools/sums/patch_main
 
-"$build/qlux-scene" "$root/tests/scenes/furnace.scene" -o scene.qlb \
+"$build/qlux-scene" "$root/tests/scenes/furnace.scene" \
+    --direct area -o scene.qlb \
     >out.txt || exit 3
 
 # ---- Numbers: two pixels, one sample in each part; sums begin at byte 92
