@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "film/ql_curve.h"
+#include "lib/files/kind.h"
 #include "lib/render/fields.h"
 
 void sim_files_open(sim_files_t *files, const render_options_t *options)
@@ -234,6 +235,7 @@ void sim_files_resume(sums_t *sums, const char *path, const sums_range_t *whole)
     file.size = (uint64_t)info.st_size;
     error = sums_open(&file, &where);
     if (error != NULL) {
+        kind_refuse_file(path, KIND_SUMS);
         cli_fail(CLI_INPUT, "%s: byte %" PRIu64 ": %s", path, where, error);
     }
     check_settings(path, &file.head, sums);

@@ -112,6 +112,7 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/options|tests/tools/lib/test_options.sh; \
     tools/open_blob|tests/tools/lib/test_open_blob.sh; \
     tools/files|tests/tools/lib/test_files.sh; \
+    tools/kind|tests/tools/lib/test_kind.sh; \
     tools/diff|tests/tools/test_diff.sh; \
     tools/scene|tests/tools/scene/test_scene.sh; \
     tools/lines|tests/tools/scene/test_lines.sh; \

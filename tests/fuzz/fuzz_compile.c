@@ -86,9 +86,9 @@ void fuzz_compile(void)
 {
     text_t text;
 
-    text_open(&text, "s.scene");
+    text_open(&text, "s.scene", KIND_SCENE);
     compile(&text, 16);
-    text_open(&text, "s.scene");
+    text_open(&text, "s.scene", KIND_SCENE);
     compile(&text, 8);
 }
 

@@ -12,7 +12,8 @@
 # in firmware/, hal/ql_hal.h, and hal/drivers/ql_bus.h between board and driver.
 #
 # The order in tools/, each may include those to its left:
-#   lib/program  lib/math  lib/image  lib/terminal  lib/sums  lib/render  figure
+#   lib/program  lib/files  lib/math  lib/image  lib/terminal  lib/sums
+#   lib/render  figure
 #   and then the programs;
 #   of scene: world  fill  crease  lamp  foreign  read  script  mesh  bare
 #   touch  blob  report  build, then others

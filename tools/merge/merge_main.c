@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "lib/files/kind.h"
 #include "lib/program/options.h"
 #include "lib/render/develop.h"
 #include "lib/render/fields.h"
@@ -198,6 +199,7 @@ static void take_part(merge_t *m, part_t *part)
     error = sums_open(&part->file, &where);
     close_part(part);
     if (error != NULL) {
+        kind_refuse_file(part->file.path, KIND_SUMS);
         cli_fail(CLI_INPUT, "%s: byte %" PRIu64 ": %s", part->file.path, where,
                 error);
     }

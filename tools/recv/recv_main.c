@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/ql_crc.h"
+#include "lib/files/kind.h"
 #include "lib/image/image_file.h"
 #include "lib/program/bytes.h"
 #include "lib/program/options.h"
@@ -539,6 +540,7 @@ static void check_picture(picture_t *picture, const input_t *in)
                 in->path, (long)status, ql_status_text((ql_status_t)status));
     }
     if (picture->height == 0) {
+        kind_refuse_file(in->path, KIND_STREAM);
         cli_fail(CLI_INPUT, "%s: no picture header found", in->path);
     }
     cli_fail(CLI_INPUT, "%s: none of %u lines arrived; nothing was written",

@@ -271,7 +271,7 @@ static void open_obj(text_t *text, const options_t *options)
 static void open_input(text_t *text, const options_t *options)
 {
     if (!bare_is_name(options->input)) {
-        text_open(text, options->input);
+        text_open(text, options->input, KIND_SCENE);
         if (!bare_is_text(text)) {
             if (obj_option() != NULL) {
                 options_fail("'%s' is for an OBJ alone; %s is none",

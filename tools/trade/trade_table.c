@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/files/kind.h"
 #include "lib/program/cli.h"
 #include "trade/trade.h"
 
@@ -120,11 +121,13 @@ void trade_read(trade_t *trade, const char *path)
         char *next = strchr(line, '\n');
 
         if (next == NULL) {
+            kind_refuse_file(path, KIND_TABLE);
             cli_fail(CLI_INPUT, "%s:%lu: the line has no end", path, n);
         }
         *next = '\0';
         if (n == 1) {
             if (strcmp(line, header) != 0) {
+                kind_refuse_file(path, KIND_TABLE);
                 cli_fail(CLI_INPUT, "%s:1: expected %s", path, header);
             }
         } else {

@@ -33,7 +33,7 @@ static void show(const uint8_t *blob, size_t size)
     dump_blob(fuzz_open(), &model);
     shown = fuzz_close(&n);
     fuzz_file("s.txt", shown, n);
-    text_open(&text, "s.txt");
+    text_open(&text, "s.txt", KIND_SCENE);
     FUZZ_CHECK(is_dump(&text));
     parse_dump(&again, &text);
     text_close(&text);

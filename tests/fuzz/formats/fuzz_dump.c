@@ -17,7 +17,7 @@ void fuzz_dump(const uint8_t *data, size_t size)
     size_t bytes;
 
     fuzz_file("s.txt", data, size);
-    text_open(&text, "s.txt");
+    text_open(&text, "s.txt", KIND_SCENE);
     if (is_dump(&text)) {
         parse_dump(&model, &text);
         blob = write_blob(&model, &bytes);

@@ -352,7 +352,7 @@ other 'an OFF mesh' 'OFF\n3 1 0\n'
 other 'a glTF mesh' 'glTF\2\0\0\0'
 printf '\377\376v\0 \0001\0' >a.obj
 refuses utf_16_is_refused_by_name <<'END'
-a.obj: this is text in UTF-16; expected UTF-8; save it as that
+a.obj: this is text in UTF-16; expected OBJ or MTL; save it as UTF-8
 END
 printf 'solidus 1\nplywood 2\nmtllib a.mtl\n' >a.obj
 takes words_that_only_begin_so_are_keys 0 <<'END'

@@ -268,7 +268,8 @@ bad_sky() {
     expect "$1" 2 "in/s.pfm: $2" compile in/a.scene -o out.qlb
 }
 one='\0\0\200\077' minus='\0\0\200\277' nan='\0\0\300\177' zero='\0\0\0\0'
-bad_sky a_map_of_text_is_refused 'byte 0: expected a PFM' 'P6 1 1 255 abc'
+bad_sky a_map_of_text_is_refused 'this is a PPM picture; expected a PFM' \
+    'P6 1 1 255 abc'
 bad_sky a_map_without_width_is_refused 'byte 3: expected a width' \
     'PF\n0 1\n-1\n'
 bad_sky a_map_without_height_is_refused 'byte 5: expected a height' \
@@ -673,7 +674,8 @@ head -c 600 in/c.qlb >in/d.qlb
 expect a_cut_blob_is_refused 2 'in/d.qlb' "$scene" --info in/d.qlb
 (head -c 700 in/c.qlb && printf X && tail -c +702 in/c.qlb) >in/d.qlb
 expect a_changed_blob_is_refused 2 'CRC' "$scene" --dump in/d.qlb
-expect a_text_is_not_a_blob 2 'not a qlux blob' "$scene" --info in/c.txt
+expect a_text_is_not_a_blob 2 'this is the dump of a blob' \
+    "$scene" --info in/c.txt
 expect an_empty_blob_is_refused 2 'dev/null' "$scene" --info /dev/null
 
 # ---- what is in a blob ----

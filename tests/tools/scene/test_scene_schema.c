@@ -129,7 +129,7 @@ static void parse(model_t *model, const char *path)
 {
     text_t text;
 
-    text_open(&text, path);
+    text_open(&text, path, KIND_SCENE);
     CHECK(is_dump(&text), "%s does not begin as a dump", path);
     parse_dump(model, &text);
     text_close(&text);

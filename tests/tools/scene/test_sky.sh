@@ -113,7 +113,7 @@ bad a_repetition_of_nothing_is_refused 'byte 55: expected a repetition' \
 bad bytes_after_the_pixels_are_refused 'byte 59: unexpected bytes' \
     "$hdr\n-Y 1 +X 1\n$b1$b1"
 bad openexr_is_refused_with_the_way_to_convert_it \
-    "byte 0: OpenEXR is not read; 'oiiotool s.exr -o s.hdr'" \
+    'this is an OpenEXR picture; expected a PFM or a Radiance picture' \
     'v/1\001\002\0\0\0'
 blob low "Pf\n2 1\n-1\n$two\0\0\0\272" &&
     grep -q 'low.map: 3 channels a little below 0 are 0$' out.txt

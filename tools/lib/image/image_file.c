@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "lib/files/kind.h"
 #include "lib/image/png.h"
 #include "lib/image/pnm.h"
 
@@ -47,6 +48,7 @@ void image_read(image_t *image, const char *path)
     const char *error = image_decode(image, data, size, &where);
 
     if (error != NULL) {
+        kind_refuse(path, data, size, KIND_PICTURE);
         cli_fail(CLI_INPUT, "%s: byte %zu: %s", path, where, error);
     }
     free(data);

@@ -8,6 +8,7 @@
 
 #include "base/ql_crc.h"
 #include "base/ql_settings.h"
+#include "lib/files/kind.h"
 #include "lib/program/cli.h"
 #include "blob/ql_blob_open.h"
 
@@ -145,6 +146,9 @@ void open_blob_bytes(
     const ql_status_t status = ql_blob_open(scene, blob, size);
     fault_t fault;
 
+    if (status == QL_ERR_MAGIC || status == QL_ERR_TRUNCATED) {
+        kind_refuse(name, blob, size, KIND_BLOB);
+    }
     if (status != QL_OK) {
         fault = find_fault(status, blob, size);
         cli_fail(CLI_INPUT, "%s: byte %zu: %s: %s", name, fault.byte,

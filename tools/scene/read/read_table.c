@@ -57,7 +57,7 @@ void read_table(world_t *world, const char *path)
     text_t text;
     int64_t cells;
 
-    text_open(&text, path);
+    text_open(&text, path, KIND_TEXT);
     cells = read_size(&text, table);
     table->weights = cli_alloc((size_t)cells, sizeof *table->weights);
     for (int64_t i = 0; i < cells; i++) {

@@ -37,12 +37,13 @@ static void begin_text(text_t *text, const char *path, char *data, size_t size)
     }
 }
 
-void text_open(text_t *text, const char *path)
+void text_open(text_t *text, const char *path, kind_t wanted)
 {
     size_t size;
     char *data = cli_read(path, &size);
     const char *zero = memchr(data, 0, size);
 
+    kind_refuse(path, data, size, wanted);
     if (zero != NULL) {
         cli_fail(CLI_INPUT, "%s: byte %zu is zero; expected a text file", path,
                 (size_t)(zero - data));

@@ -13,6 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "lib/files/kind.h"
 #include "scene/foreign/notes.h"
 
 typedef struct {
@@ -27,9 +28,9 @@ typedef struct {
     const char *const *whole; /* keys whose lines keep a '#'; or NULL */
 } text_t;
 
-/* Read a whole file. Fails with exit 3 if it cannot be read, 2 if it is not
- * text. path must outlive the text. */
-void text_open(text_t *text, const char *path);
+/* Read a whole file, of a kind. Fails with exit 3 if it cannot be read, 2 if it
+ * is not text, or known to be of another kind. path must outlive the text. */
+void text_open(text_t *text, const char *path, kind_t wanted);
 
 /* Read a text that is in memory, malloc'd, as if it were the file at a path;
  * text_close() frees it. */

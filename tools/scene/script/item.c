@@ -233,8 +233,9 @@ static char *take_name(text_t *text)
 {
     char *line = text->rest, *name = NULL;
     size_t from = strlen(line);
+    bool found = false;
 
-    for (size_t at = from + 1; at-- > 0;) {
+    for (size_t at = from + 1; at-- > 0 && !found;) {
         size_t end = at;
 
         if (!may_end(line, at)) {
@@ -246,11 +247,9 @@ static char *take_name(text_t *text)
         free(name);
         name = alloc_text(line, end);
         from = at;
-        if (is_readable(text, name)) {
-            break;
-        }
+        found = is_readable(text, name);
     }
-    if (name != NULL && (*name == '\0' || *name == '#')) {
+    if (name != NULL && !found && (*name == '\0' || *name == '#')) {
         free(name);
         name = NULL;
     }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/files/kind.h"
 #include "lib/image/image_file.h"
 #include "lib/program/cli.h"
 #include "scene/sky/read_hdr.h"
@@ -70,10 +71,6 @@ static const char *decode(
         image_t *image, const uint8_t *data, size_t size, size_t *where)
 {
     *where = 0;
-    if (size >= 4 && memcmp(data, "\x76\x2f\x31\x01", 4) == 0) {
-        return "OpenEXR is not read; 'oiiotool s.exr -o s.hdr' or "
-               "'convert s.exr s.pfm' make a map of it";
-    }
     if (read_hdr_is(data, size)) {
         return read_hdr(image, data, size, where);
     }
@@ -107,6 +104,7 @@ void read_sky(world_sky_t *sky, const char *path, sky_rows_t rows)
     const char *error = decode(&image, data, size, &where);
 
     if (error != NULL) {
+        kind_refuse(path, data, size, KIND_SKY);
         cli_fail(CLI_INPUT, "%s: byte %zu: %s", path, where, error);
     }
     free(data);
