@@ -74,6 +74,13 @@ endef
 $(foreach n,$(names),$(eval source_of_$n := $(call source_of,$n)))
 $(foreach n,$(names),$(eval $(call program,$n)))
 
+# The boards that qlux-trade knows are those of hal/boards.
+$O/boards.h: tools/trade/boards.awk $(sort $(wildcard hal/boards/*/board.h)) \
+    $(sort $(wildcard hal/boards/*/board.mk))
+	$(call step,BOARDS,$@)awk -f $^ > $@.tmp && mv $@.tmp $@
+$O/host/tools/trade/scene/trade_boards.o: HOST += -DTRADE_BOARDS='"$O/boards.h"'
+$O/host/tools/trade/scene/trade_boards.o: $O/boards.h
+
 # Other tables of the warps than the tools have: build/qlux-sim-draft-nearest-9.
 tables := $(if $(filter 7-1,$(TABLE_BITS)-$(TABLE_LERP)),,-$(if $(filter \
     0,$(TABLE_LERP)),nearest,lerp)-$(TABLE_BITS))

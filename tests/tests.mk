@@ -24,7 +24,7 @@ support := $(test_lib) $(filter-out %_main.c,$(sim_src)) \
     tests/bench/rays/bench_rays.c \
     tests/bench/rays/float_pt.c $(lib_src) \
     $(filter-out %_main.c,$(wildcard tools/scene/*.c tools/scene/*/*.c)) \
-    $(wildcard tools/figure/*.c)
+    $(wildcard tools/figure/*.c) tools/trade/scene/trade_curve.c
 # It renders every feature, so it needs a core that has every one.
 reference := $(filter-out %_main.c,$(wildcard tools/ref/*.c)) \
     tests/known/double/rounding.c
@@ -124,6 +124,7 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/readers|tests/tools/foreign/test_readers.sh; \
     tools/lut|tests/tools/test_lut.sh; \
     tools/warp|tests/tools/test_warp.sh; \
+    tools/trade_scene|tests/tools/trade/test_trade_scene.sh; \
     tools/sheet|tests/tools/test_sheet.sh; \
     tools/ref|tests/tools/test_ref.sh; \
     tools/recv|tests/tools/test_recv.sh; \

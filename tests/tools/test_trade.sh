@@ -146,6 +146,25 @@ awk -F, '{ cost[$1 $3] = $14 }
     }' $csv
 say costs_are_in_the_order_of_the_work $?
 
+# Every third pixel of every third line, as bench_settings.c has them.
+awk -F, -v dir="$build/trade" '
+    BEGIN {
+        split("base area-4 mis mis-4 mis-2 mis-2 bounces-1 area-1 " \
+            "fine area-4", w, " ")
+        for (i = 1; i < 10; i += 2) way[w[i]] = w[i + 1]
+    }
+    $3 in way && !seen[$1 $3]++ {
+        print dir "/" $1 "-n16l4.qlb", $1 == "cornell" ? "18 18" : "20 15", 3,
+            $2, $5, way[$3], $14
+    }' $csv >"$work/rows.txt"
+[ "$(wc -l <"$work/rows.txt")" -eq 10 ] &&
+    "$build/cost-model" 0.1 <"$work/rows.txt" >"$work/costs.txt"
+say costs_are_within_10_percent_of_the_model $?
+awk '$7 == "mis-4" { $8 *= 2 } { print }' "$work/rows.txt" |
+    "$build/cost-model" 0.1 >"$work/costs.txt"
+[ $? -eq 4 ]
+say half_the_cost_of_mis_is_seen $?
+
 # Nothing is measured twice; what is missing is.
 stamp() { # when each was measured
     find "$build/trade/quick" -name '*.error' -o -name '*.cost' | sort |

@@ -33,6 +33,9 @@ typedef struct {
 void trade_read(trade_t *trade, const char *path);
 void trade_free(trade_t *trade);
 
+/* Mark what is best in each scene on each core. */
+void trade_mark_best(trade_t *trade);
+
 /* The cheapest point of a scene on a core with an error of at most this; NULL
  * if there is none. */
 const trade_point_t *trade_cheapest(const trade_t *trade, const char *scene,

@@ -93,7 +93,7 @@ static bool same_place(const trade_point_t *a, const trade_point_t *b)
     return strcmp(a->scene, b->scene) == 0 && strcmp(a->core, b->core) == 0;
 }
 
-static void mark_best(trade_t *trade)
+void trade_mark_best(trade_t *trade)
 {
     for (size_t i = 0; i < trade->count; i++) {
         trade_point_t *p = trade->points + i;
@@ -152,7 +152,7 @@ void trade_read(trade_t *trade, const char *path)
         cli_fail(CLI_INPUT, "%s: no rows", path);
     }
     free(text);
-    mark_best(trade);
+    trade_mark_best(trade);
 }
 
 void trade_free(trade_t *trade)

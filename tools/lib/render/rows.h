@@ -1,8 +1,8 @@
 /* rows.h - a picture's rows on several threads: steps, progress, a stop */
 /* SPDX-License-Identifier: MIT */
 
-/* rows.c starts the only threads of the product. qlux-sim and qlux-ref
- * link it and nobody else does, so no other program needs a thread library.
+/* rows.c starts the only threads of the product. qlux-sim, qlux-ref and
+ * qlux-trade link it, so no other program needs a thread library.
  *
  * Rows are handed out one by one, and each pixel is written by the one thread
  * that has its row, its samples in order: the number of threads changes no bit.
