@@ -68,13 +68,14 @@ static void describe(sums_t *sums, const ql_render_t *render)
     f[SUMS_TABLE_LERP] = QL_CFG_TABLE_LERP;
 }
 
-static void print_stats(const sim_stats_t *s)
+static void print_stats(const sim_stats_t *s, const ql_settings_t *settings)
 {
     rows_print_stats(s->paths, s->closest_rays, s->shadow_rays);
     printf("saturated: %" PRIu64 "\n", s->saturated);
     printf("faint: %" PRIu64 "\n", s->faint);
     printf("seconds: %.3f\n", s->seconds);
     printf("precision: " PRECISION "\n");
+    render_options_print(settings);
 }
 
 /* Everything after the options. A second signal ends the program at once. */
@@ -112,7 +113,7 @@ static void run(render_options_t *o, const ql_render_t *render)
                 stats.saturated);
     }
     if (o->stats) {
-        print_stats(&stats);
+        print_stats(&stats, &render->settings);
         if (sums.counts != NULL) {
             printf("samples-per-pixel: %.3f\n", sim_files_mean_count(&sums));
         }

@@ -16,10 +16,10 @@ typedef enum {
     QL_DENSITY_SPECULAR /* along the one direction of a mirror or glass */
 } ql_density_t;
 
-/* Is it the uniform one? Only the strategies draw so. */
+/* Is it the uniform one? */
 QL_INLINE bool ql_density_is_uniform(ql_density_t density)
 {
-    return QL_CFG_STRATEGIES && density == QL_DENSITY_UNIFORM;
+    return QL_UNIFORM_DIRECTIONS && density == QL_DENSITY_UNIFORM;
 }
 
 #endif

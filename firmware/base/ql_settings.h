@@ -22,7 +22,8 @@ typedef enum {
     QL_DIRECT_HEMISPHERE,  /* by uniform directions that may hit one */
     QL_DIRECT_COSINE,      /* by directions proportional to the cosine */
     QL_DIRECT_SOLID_ANGLE, /* by directions towards the emitters */
-    QL_DIRECT_MIS          /* by points and directions, balance heuristic */
+    QL_DIRECT_MIS,         /* by points and directions, balance heuristic */
+    QL_DIRECT_AUTO         /* by the one that the blob says */
 } ql_direct_t;
 
 /* How light that comes by way of another surface is estimated: by directions
@@ -36,9 +37,10 @@ typedef enum {
 
 /* Which emitters a vertex asks. */
 typedef enum {
-    QL_LIGHTS_POWER,  /* one, by power */
-    QL_LIGHTS_ALL,    /* every one: the sum over the sources */
-    QL_LIGHTS_UNIFORM /* one, each with the same chance */
+    QL_LIGHTS_POWER,   /* one, by power */
+    QL_LIGHTS_ALL,     /* every one: the sum over the sources */
+    QL_LIGHTS_UNIFORM, /* one, each with the same chance */
+    QL_LIGHTS_AUTO     /* as the blob says */
 } ql_light_choice_t;
 
 /* How light becomes what a display shows (film/ql_curve.h). */
@@ -69,19 +71,21 @@ typedef struct {
 
 /* Which gate of ql_config.h a setting needs: a build without GATE refuses a
  * MEMBER from FIRST to LAST, or such a pair of members. This is the only list:
- * tools/dev/gates.awk reads the same rows for make and for make trade. Beside
- * it, QL_CFG_SAMPLERS has a bit for each ql_sampler_kind_t, QL_CFG_CURVES for
- * each ql_curve_t but SRGB; curve does not exist without any, nor error_q16
- * without QL_CFG_ADAPTIVE.
+ * tools/dev/gates.awk reads the same rows for make and for make trade. Of a SET
+ * the gate has a bit for each value of MEMBER. Beside them, QL_CFG_CURVES has a
+ * bit for each ql_curve_t but SRGB; curve does not exist without any, nor
+ * error_q16 without QL_CFG_ADAPTIVE.
  *
+ *   SET(GATE, MEMBER)
  *   NEED(GATE, MEMBER, FIRST, LAST)
  *   BOTH(GATE, MEMBER, FIRST, LAST, MEMBER, FIRST, LAST) */
-#define QL_SETTINGS_NEED(NEED, BOTH)                                           \
-    NEED(STRATEGIES, direct, QL_DIRECT_HEMISPHERE, QL_DIRECT_MIS)              \
-    NEED(STRATEGIES, indirect, QL_INDIRECT_UNIFORM, QL_INDIRECT_UNIFORM)       \
-    NEED(STRATEGIES, lights, QL_LIGHTS_ALL, QL_LIGHTS_UNIFORM)                 \
-    NEED(STRATEGIES, light_samples, 2, 255)                                    \
-    NEED(STRATEGIES, roulette, 1, 1)                                           \
+#define QL_SETTINGS_NEED(SET, NEED, BOTH)                                      \
+    SET(SAMPLERS, sampler)                                                     \
+    SET(DIRECT, direct)                                                        \
+    SET(LIGHT_CHOICES, lights)                                                 \
+    NEED(UNIFORM, indirect, QL_INDIRECT_UNIFORM, QL_INDIRECT_UNIFORM)          \
+    NEED(LIGHT_SAMPLES, light_samples, 2, 255)                                 \
+    NEED(ROULETTE, roulette, 1, 1)                                             \
     BOTH(INDIRECT, bounces, 1, QL_BOUNCES_MAX, indirect, QL_INDIRECT_COSINE,   \
             QL_INDIRECT_BRDF)
 
@@ -91,9 +95,9 @@ typedef struct {
  *
  *   IDLE(MEMBER, FIRST, LAST, WHERE, FIRST, LAST) */
 #define QL_SETTINGS_IDLE(IDLE)                                                 \
-    IDLE(lights, QL_LIGHTS_POWER, QL_LIGHTS_UNIFORM, direct,                   \
+    IDLE(lights, QL_LIGHTS_ALL, QL_LIGHTS_UNIFORM, direct,                     \
             QL_DIRECT_HEMISPHERE, QL_DIRECT_COSINE)                            \
-    IDLE(lights, QL_LIGHTS_POWER, QL_LIGHTS_UNIFORM, direct, QL_DIRECT_NONE,   \
+    IDLE(lights, QL_LIGHTS_ALL, QL_LIGHTS_UNIFORM, direct, QL_DIRECT_NONE,     \
             QL_DIRECT_NONE)                                                    \
     IDLE(light_samples, 1, 255, direct, QL_DIRECT_NONE, QL_DIRECT_NONE)        \
     IDLE(indirect, QL_INDIRECT_COSINE, QL_INDIRECT_BRDF, bounces, 0, 0)        \
@@ -111,14 +115,37 @@ typedef struct {
 #define QL_EXPOSURE_Q8(stops)                                                  \
     ((int16_t)((stops)*256 + ((stops) < 0 ? -0.5 : 0.5)))
 
+/* Is a setting that was checked this one? Known to the compiler where the build
+ * has no other.
+ *
+ *   direct, lights  -  of ql_settings_t, not AUTO
+ *   which           -  not AUTO
+ */
+QL_INLINE bool ql_direct_is(unsigned direct, ql_direct_t which)
+{
+    return (QL_CFG_DIRECT >> which & 1) != 0 &&
+           (QL_CFG_DIRECT == 1 << which || direct == (unsigned)which);
+}
+
+QL_INLINE bool ql_lights_is(unsigned lights, ql_light_choice_t which)
+{
+    return (QL_CFG_LIGHT_CHOICES >> which & 1) != 0 &&
+           (QL_CFG_LIGHT_CHOICES == 1 << which || lights == (unsigned)which);
+}
+
+QL_STATIC_ASSERT(1 << QL_DIRECT_MIS == 32 && 1 << QL_DIRECT_SOLID_ANGLE == 16 &&
+                         1 << QL_DIRECT_HEMISPHERE == 4 &&
+                         1 << QL_DIRECT_COSINE == 8 && QL_DIRECT_AREA == 1,
+        bits_of_ql_config_h_are_strategies);
+
 /* The scene's size, 16 samples, seed 0, Sobol points and 4 bounces, or what
- * there is of them in the build, one light by area and power, the BRDF, sRGB;
+ * there is of them in the build, direct light as the blob says, the BRDF, sRGB;
  * in the order of the struct, as C++ wants it. */
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \
         0, 0, 16, 0, QL_CFG_INDIRECT ? 4 : 0,                                  \
                 QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM,    \
-                QL_DIRECT_AREA, QL_INDIRECT_BRDF, QL_LIGHTS_POWER, 1, 0, 0,    \
+                QL_DIRECT_AUTO, QL_INDIRECT_BRDF, QL_LIGHTS_AUTO, 1, 0, 0,     \
                 QL_IF_BUILT(QL_CFG_ADAPTIVE, 0, )                              \
                         QL_IF_BUILT(QL_ROLL_OFF, QL_CURVE_SRGB)                \
     }

@@ -178,7 +178,7 @@ static bool emitter_valid(const ql_blob_light_t *lights, uint32_t i,
 {
     const uint32_t triangle = QL_LE16(lights[i].triangle);
 
-    if (QL_BLOB_HAS_OPTIONAL || QL_CFG_STRATEGIES) {
+    if (QL_BLOB_HAS_OPTIONAL || QL_MIS) {
         if (i > 0 && triangle <= QL_LE16(lights[i - 1].triangle)) {
             return false;
         }

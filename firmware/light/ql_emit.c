@@ -29,7 +29,7 @@ bool ql_emit_sample(const ql_scene_t *scene, ql_direct_t direct, uint16_t light,
     return ql_emit_triangle_sample(scene, direct, light, surface, u, sample);
 }
 
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 ql_real_t ql_emit_inv_pdf(const ql_scene_t *scene, const ql_surface_t *surface,
         const ql_ray_t *ray, const ql_blob_tri_t *tri, ql_uq30_t t)
 {

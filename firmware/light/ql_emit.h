@@ -35,7 +35,7 @@
 bool ql_emit_sample(const ql_scene_t *scene, ql_direct_t direct, uint16_t light,
         const ql_surface_t *surface, ql_uniform2_t u, ql_emit_sample_t *sample);
 
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 /* 1 / density that ql_emit_sample() with MIS has for a direction that was drawn
  * by another density.
  *

@@ -24,16 +24,6 @@ typedef struct {
     ql_uq32_t emission[3]; /* radiance units */
 } ql_emit_sample_t;
 
-/* Is this the strategy? Without QL_CFG_STRATEGIES it is AREA.
- *
- *   direct  -  AREA, SOLID_ANGLE or MIS
- *   which   -  one of them
- */
-QL_INLINE bool ql_emit_is_by(ql_direct_t direct, ql_direct_t which)
-{
-    return QL_CFG_STRATEGIES ? direct == which : which == QL_DIRECT_AREA;
-}
-
 /* Set a direction and its cosine.
  *
  *   sample   -      out: wi and cosine

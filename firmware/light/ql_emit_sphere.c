@@ -165,7 +165,7 @@ bool ql_emit_sphere_sample(const ql_scene_t *scene, ql_direct_t direct,
     if (side <= 0 && !ql_scene_two_sided(scene)) {
         return false;
     }
-    if (side != 0 && ql_emit_is_by(direct, QL_DIRECT_AREA)) {
+    if (side != 0 && ql_direct_is(direct, QL_DIRECT_AREA)) {
         return sample_sphere(sphere, offset, side, surface, u, sample);
     }
     if (side > 0) {

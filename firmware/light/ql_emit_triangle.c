@@ -57,8 +57,8 @@ void ql_emit_triangle_point(const ql_scene_t *scene, uint16_t light,
  */
 static ql_real_t area_inv_pdf(uint64_t facing, ql_real_t below)
 {
-    return ql_real_scale(
-            ql_real_mul(ql_real_from_u64(facing), ql_real_recip(below)),
+    return ql_real_scale(ql_real_mul_call(ql_real_from_uq_call(facing, 0),
+                                 ql_real_recip_call(below)),
             2 * QL_POS_BITS - 1);
 }
 
@@ -90,13 +90,13 @@ ql_real_t ql_emit_triangle_inv_pdf(const ql_scene_t *scene, const ql_ray_t *ray,
     const ql_edges_t e = ql_scene_edges(scene, tri);
     const int64_t facing =
             ql_vec_dot_normal(ray->direction, ql_vec_cross(e.e1, e.e2));
-    const ql_real_t way = ql_real_scale(ql_real_from_u64(t), -30);
+    const ql_real_t way = ql_real_from_uq_call(t, 30);
     const ql_real_t square = ql_vec_square(ray->direction);
 
     /* |N.d| / (2 t^2 |d|^3), as for a point at t d */
     return area_inv_pdf(ql_abs64(facing),
-            ql_real_mul(ql_real_mul(way, way),
-                    ql_real_mul(square, ql_real_sqrt(square))));
+            ql_real_mul_call(ql_real_mul_call(way, way),
+                    ql_real_mul_call(square, ql_real_sqrt(square))));
 }
 
 /* ---- Uniform on it as seen --------------------------------------------- */
@@ -201,7 +201,7 @@ bool ql_emit_triangle_sample(const ql_scene_t *scene, ql_direct_t direct,
         uint16_t light, const ql_surface_t *surface, ql_uniform2_t u,
         ql_emit_sample_t *sample)
 {
-    if (ql_emit_is_by(direct, QL_DIRECT_SOLID_ANGLE)) {
+    if (ql_direct_is(direct, QL_DIRECT_SOLID_ANGLE)) {
         const seen_t seen = sample_solid_angle(
                 scene, ql_light_triangle(scene, light), surface, u, sample);
 

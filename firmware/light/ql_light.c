@@ -7,19 +7,13 @@
 
 #define LIGHT_WORDS (sizeof(ql_blob_light_t) / sizeof(uint32_t))
 
-/* Is each light chosen with the same chance? Only the strategies do that. */
-static bool is_uniform(unsigned choice)
-{
-    return QL_CFG_STRATEGIES && choice == QL_LIGHTS_UNIFORM;
-}
-
 uint16_t ql_light_choose(
         const ql_scene_t *scene, unsigned choice, ql_uq32_t pick)
 {
     if (scene->light_count < 2) {
         return 0;
     }
-    if (is_uniform(choice)) {
+    if (ql_lights_is(choice, QL_LIGHTS_UNIFORM)) {
         return (uint16_t)ql_mulhi_u32(pick, scene->light_count);
     }
     return ql_cdf_sample(
@@ -43,7 +37,7 @@ static uint32_t bound_of(
 {
     const uint32_t n = scene->light_count;
 
-    if (is_uniform(choice)) {
+    if (ql_lights_is(choice, QL_LIGHTS_UNIFORM)) {
         return equal_bound(light, n);
     }
     return light < n ? QL_LE32(scene->lights[light].cum) : 0;
@@ -51,7 +45,7 @@ static uint32_t bound_of(
 
 ql_real_t ql_light_pmf(const ql_scene_t *scene, unsigned choice, uint16_t light)
 {
-    if (choice == QL_LIGHTS_ALL || scene->light_count < 2) {
+    if (ql_lights_is(choice, QL_LIGHTS_ALL) || scene->light_count < 2) {
         return QL_REAL_ONE;
     }
     return ql_real_scale(ql_real_from_u64(bound_of(scene, choice, light + 1ul) -
@@ -59,24 +53,27 @@ ql_real_t ql_light_pmf(const ql_scene_t *scene, unsigned choice, uint16_t light)
             -32);
 }
 
-#if QL_CFG_STRATEGIES
+#if QL_CFG_LIGHT_CHOICES != 1 || QL_CFG_LIGHT_SAMPLES
 ql_real_t ql_light_weight(const ql_scene_t *scene, unsigned choice,
         unsigned samples, uint16_t light)
 {
     ql_real_t weight = QL_REAL_INV_2PI;
 
-    if (choice == QL_LIGHTS_POWER) {
+    if (ql_lights_is(choice, QL_LIGHTS_POWER)) {
         weight = ql_light_power_weight(scene->lights + light);
-    } else if (choice == QL_LIGHTS_UNIFORM && scene->light_count > 1) {
+    } else if (ql_lights_is(choice, QL_LIGHTS_UNIFORM) &&
+               scene->light_count > 1) {
         weight = ql_real_mul(
                 weight, ql_real_recip(ql_light_pmf(scene, choice, light)));
     }
-    if (samples > 1) {
+    if (QL_CFG_LIGHT_SAMPLES && samples > 1) {
         weight = ql_real_mul(weight, ql_real_recip(ql_real_from_u64(samples)));
     }
     return weight;
 }
+#endif
 
+#if QL_MIS
 bool ql_light_find(const ql_scene_t *scene, uint16_t index, uint16_t *light)
 {
     uint32_t low = 0, high = scene->light_count;

@@ -72,7 +72,7 @@ QL_INLINE ql_real_t ql_light_power_weight(const ql_blob_light_t *light)
  *
  * Error: half an ulp for one sample by POWER, 2^-29 else.
  */
-#if QL_CFG_STRATEGIES
+#if QL_CFG_LIGHT_CHOICES != 1 || QL_CFG_LIGHT_SAMPLES
 ql_real_t ql_light_weight(const ql_scene_t *scene, unsigned choice,
         unsigned samples, uint16_t light);
 #else
@@ -93,7 +93,7 @@ QL_INLINE ql_real_t ql_light_weight(const ql_scene_t *scene, unsigned choice,
  *
  * Cost: ceil(log2(lights)) compares.
  */
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 bool ql_light_find(const ql_scene_t *scene, uint16_t index, uint16_t *light);
 #else
 QL_INLINE bool ql_light_find(

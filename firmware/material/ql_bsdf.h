@@ -41,13 +41,13 @@ void ql_bsdf_begin(ql_bsdf_t *bsdf, const ql_scene_t *scene,
  *   bsdf     -     from ql_bsdf_begin()
  *   density  -     UNIFORM, COSINE or BRDF, of what is not specular; SPECULAR
  *                  draws the specular lobe alone, with all its weight. UNIFORM
- *                  needs QL_CFG_STRATEGIES.
+ *                  needs QL_UNIFORM_DIRECTIONS.
  *   pick     uq32  chooses the lobe; of glass whether it reflects
  *   u        uq32  chooses the direction
  *   sample   -     out, if true is returned
  *   pdf      real  out, unless NULL, if true is returned: density of wi per
  *                  solid angle times the chance of its lobe; 0 of a specular
- *                  lobe. Only BRDF has one, and only QL_CFG_STRATEGIES asks.
+ *                  lobe. Only BRDF has one, and only QL_MIS asks.
  *   return   false if the light is lost: the direction is below the surface,
  *            the weight is zero, or there is no such lobe
  *
@@ -76,8 +76,7 @@ bool ql_bsdf_sample(const ql_bsdf_t *bsdf, ql_density_t density, ql_uq32_t pick,
  *   cosine   real   cos(theta) between wi and the shading normal, above 0
  *   inv_pdf  real   1 / density of wi per solid angle (times the number of
  *                   samples drawn so); not 0
- *   mis      -      whether each lobe is weighed; BALANCE needs
- *                   QL_CFG_STRATEGIES
+ *   mis      -      whether each lobe is weighed; BALANCE needs QL_MIS
  *   r        -      out: f cos inv_pdf; weighed, each lobe's part is divided
  *                   by 1 + inv_pdf times the lobe's pdf as ql_bsdf_sample() has
  *                   it

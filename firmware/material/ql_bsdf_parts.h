@@ -41,16 +41,16 @@ typedef enum {
     QL_MIS_BALANCE /* yes, against ql_bsdf_sample() with BRDF */
 } ql_mis_t;
 
-/* Is light to be weighed? Only the strategies ask for that. */
+/* Is light to be weighed? */
 QL_INLINE bool ql_mis_is_balance(ql_mis_t mis)
 {
-    return QL_CFG_STRATEGIES && mis == QL_MIS_BALANCE;
+    return QL_MIS && mis == QL_MIS_BALANCE;
 }
 
-/* Is a density asked for? Only the strategies ask for one. */
+/* Is a density asked for? Only to weigh by it. */
 QL_INLINE bool ql_bsdf_wants_pdf(const ql_real_t *pdf)
 {
-    return QL_CFG_STRATEGIES && pdf != NULL;
+    return QL_MIS && pdf != NULL;
 }
 
 #if QL_GLOSS

@@ -32,8 +32,8 @@ typedef struct {
     bool specular;       /* drawn from a specular lobe, or the camera's */
     /* where it is weighed by MIS: the density of its direction times the
      * chance of its lobe, and where it began */
-    QL_IF_BUILT(QL_CFG_STRATEGIES, ql_real_t pdf;)
-    QL_IF_BUILT(QL_CFG_STRATEGIES, const ql_surface_t *from;)
+    QL_IF_BUILT(QL_MIS, ql_real_t pdf;)
+    QL_IF_BUILT(QL_MIS, const ql_surface_t *from;)
 } ql_path_ray_t;
 
 /* A vertex of a path: where a ray met a surface that reflects. */

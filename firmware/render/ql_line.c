@@ -6,6 +6,7 @@
 #include "film/ql_adaptive.h"
 #include "film/ql_curve.h"
 #include "render/ql_path.h"
+#include "scene/ql_auto.h"
 
 static bool is_within(unsigned value, unsigned first, unsigned last)
 {
@@ -13,19 +14,19 @@ static bool is_within(unsigned value, unsigned first, unsigned last)
 }
 
 /* Rows of QL_SETTINGS_NEED: the gate is needed, and the build is without it. */
+#define LACKS_OF_SET(gate, member) ((QL_CFG_##gate >> s->member) & 1) == 0 ||
 #define LACKS(gate, member, first, last)                                       \
     (!QL_CFG_##gate && is_within(s->member, first, last)) ||
 #define LACKS_BOTH(gate, a, a_first, a_last, b, b_first, b_last)               \
     (!QL_CFG_##gate && is_within(s->a, a_first, a_last) &&                     \
             is_within(s->b, b_first, b_last)) ||
 
-/* Do the settings need what this build is without, a gate or their sampler? */
+/* Do the settings need a gate that this build is without? */
 static bool lacks_a_gate(const ql_settings_t *s)
 {
-    const bool lacks = QL_SETTINGS_NEED(LACKS, LACKS_BOTH) false;
+    const bool lacks = QL_SETTINGS_NEED(LACKS_OF_SET, LACKS, LACKS_BOTH) false;
 
-    return lacks || ((QL_CFG_SAMPLERS >> s->sampler) & 1) == 0 ||
-           ((QL_CFG_CURVES << 1 | 1) >> ql_curve_of(s) & 1) == 0;
+    return lacks || ((QL_CFG_CURVES << 1 | 1) >> ql_curve_of(s) & 1) == 0;
 }
 
 static bool settings_in_range(const ql_settings_t *s)
@@ -44,21 +45,14 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
 {
     ql_settings_t s = *settings;
 
-    if (s.width == 0) {
-        s.width = QL_LE16(scene->header->image_width);
-    }
-    if (s.height == 0) {
-        s.height = QL_LE16(scene->header->image_height);
-    }
+    ql_auto_resolve(&s, scene->header);
     if (!settings_in_range(&s) ||
             !ql_camera_init(&render->camera, scene, s.width, s.height)) {
         *render = (ql_render_t){0};
         return QL_ERR_SETTINGS;
     }
     render->scene = scene;
-    render->settings = *settings;
-    render->settings.width = s.width;
-    render->settings.height = s.height;
+    render->settings = s;
     render->diag = (ql_diag_t){0};
     render->exposure = ql_film_exposure(
             ql_i16(QL_LE16((uint16_t)scene->header->radiance_exp)),

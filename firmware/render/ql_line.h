@@ -37,7 +37,7 @@ typedef struct {
  *
  *   render    -  out: all zero if this fails
  *   scene     -  from ql_blob_open(); must outlive render
- *   settings  -  copied; width or height 0 means the scene's own
+ *   settings  -  copied; what they leave to the scene is filled in (ql_auto.h)
  *   return    QL_OK, or QL_ERR_SETTINGS: a field outside its range, or one
  *             that needs a part this build lacks (ql_config.h)
  */

@@ -6,11 +6,12 @@
 #include "light/ql_emit.h"
 #include "light/ql_light.h"
 
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 
 ql_real_t ql_mis_weight(ql_real_t h)
 {
-    ql_real_t below;
+    uint64_t below; /* 1 + h in units of 2^e, below 2^63 */
+    int e;
 
     QL_COUNT(balances);
     if (h.m == 0 || h.e < -93) {
@@ -20,18 +21,19 @@ ql_real_t ql_mis_weight(ql_real_t h)
         return QL_REAL_ONE; /* h >= 2^31 */
     }
     if (h.e >= -31) {
-        /* 1 <= h < 2^31, in units of 2^e */
-        below = ql_real_scale(
-                ql_real_from_u64((uint64_t)h.m + ((uint64_t)1 << -h.e)), h.e);
+        /* 1 <= h < 2^31 */
+        e = h.e;
+        below = (uint64_t)h.m + ((uint64_t)1 << -e);
     } else {
-        /* h < 1, in units of 2^-62 */
+        /* h < 1 */
         const int up = h.e + 62;
-        const uint64_t m =
-                up >= 0 ? (uint64_t)h.m << up : (uint64_t)(h.m >> -up);
 
-        below = ql_real_scale(ql_real_from_u64(m + ((uint64_t)1 << 62)), -62);
+        e = -62;
+        below = (up >= 0 ? (uint64_t)h.m << up : (uint64_t)(h.m >> -up)) +
+                ((uint64_t)1 << 62);
     }
-    return ql_real_mul(h, ql_real_recip(below));
+    return ql_real_mul_call(
+            h, ql_real_recip_call(ql_real_from_uq_call(below, (unsigned)-e)));
 }
 
 ql_real_t ql_mis_weight_of_ray(const ql_context_t *context,
@@ -50,10 +52,10 @@ ql_real_t ql_mis_weight_of_ray(const ql_context_t *context,
     QL_COUNT(weights);
 
     /* h = p / q: the lobe's density times the inverse of the emitter's */
-    h = ql_real_mul(
+    h = ql_real_mul_call(
             ray->pdf, ql_emit_inv_pdf(scene, ray->from, &ray->ray, tri, t));
-    h = ql_real_mul(h, QL_REAL_TWO_PI);
-    h = ql_real_mul(
+    h = ql_real_mul_call(h, QL_REAL_TWO_PI);
+    h = ql_real_mul_call(
             h, ql_light_weight(scene, s->lights, s->light_samples, light));
     return h.m == 0 ? QL_REAL_ONE : ql_mis_weight(h);
 }

@@ -16,7 +16,7 @@
 
 #include "render/ql_context.h"
 
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 /* The weight of a ratio of densities.
  *
  *   h       real  p / q
@@ -51,7 +51,9 @@ QL_INLINE void ql_mis_begin(
  * h = g, and g / (1 + h) is that weight as well. */
 QL_INLINE ql_real_t ql_mis_weigh_point(const ql_context_t *context, ql_real_t g)
 {
-    return context->settings->direct == QL_DIRECT_MIS ? ql_mis_weight(g) : g;
+    return ql_direct_is(context->settings->direct, QL_DIRECT_MIS)
+                   ? ql_mis_weight(g)
+                   : g;
 }
 #else
 QL_INLINE ql_real_t ql_mis_weight_of_ray(const ql_context_t *context,

@@ -16,7 +16,7 @@
 /* Points of triangles, seen from flat diffuse surfaces, are all there is. */
 #define POINTS_ONLY                                                            \
     (!QL_GLOSS && !QL_CFG_SMOOTH && !QL_CFG_SPHERES && !QL_CFG_SKY &&          \
-            !QL_CFG_STRATEGIES)
+            !QL_SOLID_ANGLE)
 
 /* Does a ray that leads to an emitter meet it, not another surface in its
  * place? It does in a scene without any. w is a difference of positions. */
@@ -125,7 +125,8 @@ static void sample_direction(const ql_context_t *context,
     }
     ql_bsdf_eval(&vertex->bsdf, sample.wi, sample.cosine,
             ql_real_mul(sample.inv_pdf, ql_real_mul(QL_REAL_TWO_PI, weight)),
-            direct == QL_DIRECT_MIS ? QL_MIS_BALANCE : QL_MIS_NONE, &r);
+            ql_direct_is(direct, QL_DIRECT_MIS) ? QL_MIS_BALANCE : QL_MIS_NONE,
+            &r);
     ql_rgb_mul(&r, vertex->throughput);
     ql_emitted_add(context, &r, sample.emission, QL_REAL_ONE);
 }
@@ -143,8 +144,8 @@ static bool is_point(
                    !ql_light_is_sky(scene, light) &&
                    ql_scene_sphere(scene, ql_light_triangle(scene, light)) ==
                            NULL &&
-                   !ql_emit_is_by((ql_direct_t)context->settings->direct,
-                           QL_DIRECT_SOLID_ANGLE));
+                   !ql_direct_is(
+                           context->settings->direct, QL_DIRECT_SOLID_ANGLE));
 }
 
 /* Draw one sample of one emitter. */
@@ -165,6 +166,7 @@ static void sample_light(const ql_context_t *context, const ql_vertex_t *vertex,
         sample_direction(context, vertex, light, weight, u);
     }
 }
+
 /* Draw samples of emitters that are chosen, each time anew. */
 static void sample_chosen(const ql_context_t *context,
         const ql_vertex_t *vertex, unsigned samples)
@@ -184,13 +186,12 @@ static void sample_chosen(const ql_context_t *context,
     }
 }
 
-/* ql_next_event() itself: with every strategy, and with what there is without
- * them, one sample of one emitter. */
-#if QL_CFG_STRATEGIES
+/* Are points or directions of emitters drawn? */
 static bool draws_emitters(unsigned direct)
 {
-    return direct == QL_DIRECT_AREA || direct == QL_DIRECT_SOLID_ANGLE ||
-           direct == QL_DIRECT_MIS;
+    return ql_direct_is(direct, QL_DIRECT_AREA) ||
+           ql_direct_is(direct, QL_DIRECT_SOLID_ANGLE) ||
+           ql_direct_is(direct, QL_DIRECT_MIS);
 }
 
 /* Draw samples of every emitter. */
@@ -211,24 +212,16 @@ static void sample_all(const ql_context_t *context, const ql_vertex_t *vertex,
 void ql_next_event(const ql_context_t *context, const ql_vertex_t *vertex)
 {
     const ql_settings_t *s = context->settings;
+    const unsigned samples = QL_CFG_LIGHT_SAMPLES ? s->light_samples : 1;
 
     if (context->scene->light_count == 0 || !draws_emitters(s->direct)) {
         return;
     }
-    if (s->lights == QL_LIGHTS_ALL) {
-        sample_all(context, vertex, s->light_samples);
+    if (ql_lights_is(s->lights, QL_LIGHTS_ALL)) {
+        sample_all(context, vertex, samples);
     } else {
-        sample_chosen(context, vertex, s->light_samples);
+        sample_chosen(context, vertex, samples);
     }
 }
-#else
-void ql_next_event(const ql_context_t *context, const ql_vertex_t *vertex)
-{
-    if (context->scene->light_count > 0 &&
-            context->settings->direct == QL_DIRECT_AREA) {
-        sample_chosen(context, vertex, 1);
-    }
-}
-#endif
 
 #endif

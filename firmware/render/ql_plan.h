@@ -85,52 +85,26 @@ typedef struct {
     uint8_t emitter_rays; /* how many are drawn by that */
 } ql_plan_t;
 
-/* ql_plan_emitter_density: the density E of a ql_direct_t, see above.
- * ql_plan_is_mis, ql_plan_is_share: is a ray weighed by MIS, or by 1/N?
- * All of them are the strategies' alone. */
-#if QL_CFG_STRATEGIES
+/* The density E of a strategy, see above. */
 QL_INLINE ql_density_t ql_plan_emitter_density(unsigned direct)
 {
-    switch (direct) {
-    case QL_DIRECT_HEMISPHERE:
-        return QL_DENSITY_UNIFORM;
-    case QL_DIRECT_COSINE:
-        return QL_DENSITY_COSINE;
-    case QL_DIRECT_MIS:
-        return QL_DENSITY_BRDF;
-    default:
-        return QL_DENSITY_NONE;
-    }
+    return ql_direct_is(direct, QL_DIRECT_MIS)          ? QL_DENSITY_BRDF
+           : ql_direct_is(direct, QL_DIRECT_HEMISPHERE) ? QL_DENSITY_UNIFORM
+           : ql_direct_is(direct, QL_DIRECT_COSINE)     ? QL_DENSITY_COSINE
+                                                        : QL_DENSITY_NONE;
 }
 
+/* Is a ray weighed by MIS? */
 QL_INLINE bool ql_plan_is_mis(ql_counts_t counts)
 {
-    return counts == QL_COUNTS_MIS;
+    return QL_MIS && counts == QL_COUNTS_MIS;
 }
 
+/* Is it weighed by 1/N? Only directions are, and if there may be several. */
 QL_INLINE bool ql_plan_is_share(ql_counts_t counts)
 {
-    return counts == QL_COUNTS_SHARE;
+    return QL_CFG_LIGHT_SAMPLES && QL_DIRECTIONS && counts == QL_COUNTS_SHARE;
 }
-#else
-QL_INLINE ql_density_t ql_plan_emitter_density(unsigned direct)
-{
-    (void)direct;
-    return QL_DENSITY_NONE;
-}
-
-QL_INLINE bool ql_plan_is_mis(ql_counts_t counts)
-{
-    (void)counts;
-    return false;
-}
-
-QL_INLINE bool ql_plan_is_share(ql_counts_t counts)
-{
-    (void)counts;
-    return false;
-}
-#endif
 
 /* Are two densities one on a surface with these lobes? */
 QL_INLINE bool ql_plan_is_same(ql_lobes_t lobes, ql_density_t a, ql_density_t b)
@@ -161,16 +135,15 @@ QL_INLINE ql_plan_t ql_plan_of(const ql_settings_t *settings, ql_lobes_t lobes,
             lobes != QL_LOBES_SPECULAR
                     ? ql_plan_emitter_density(settings->direct)
                     : QL_DENSITY_NONE;
+    const bool mis = ql_direct_is(settings->direct, QL_DIRECT_MIS);
     const unsigned directions =
-            QL_CFG_STRATEGIES && settings->direct != QL_DIRECT_MIS
-                    ? settings->light_samples
-                    : 1;
+            QL_CFG_LIGHT_SAMPLES && !mis ? settings->light_samples : 1;
     const ql_counts_t of_all = directions > 1 ? QL_COUNTS_SHARE : QL_COUNTS_ALL;
-    const ql_counts_t by_emitter =
-            settings->direct == QL_DIRECT_MIS ? QL_COUNTS_MIS : of_all;
+    const ql_counts_t by_emitter = mis ? QL_COUNTS_MIS : of_all;
     const ql_counts_t by_specular =
-            settings->direct != QL_DIRECT_NONE || specular ? QL_COUNTS_ALL
-                                                           : QL_COUNTS_NOTHING;
+            ql_direct_is(settings->direct, QL_DIRECT_NONE) && !specular
+                    ? QL_COUNTS_NOTHING
+                    : QL_COUNTS_ALL;
     ql_plan_t plan = {
             .indirect = {indirect, QL_COUNTS_NOTHING, by_specular},
             .emitter = {QL_DENSITY_NONE, QL_COUNTS_ALL, QL_COUNTS_ALL},

@@ -3,7 +3,7 @@
 
 #include "sample/ql_roulette.h"
 
-#if QL_CFG_STRATEGIES
+#if QL_CFG_ROULETTE
 
 /* The largest channel as a chance, at least 2^-31 and at most 1. */
 static ql_uq31_t chance_of(const ql_rgb_t *throughput)

@@ -7,7 +7,7 @@
 #include "math/vec/ql_rgb.h"
 #include "sample/ql_sampler.h"
 
-#if QL_CFG_STRATEGIES
+#if QL_CFG_ROULETTE
 /* Let a path survive with the chance of its throughput's largest channel, if
  * that is below 1, and divide its throughput by the chance.
  *

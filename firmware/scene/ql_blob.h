@@ -94,13 +94,14 @@ typedef struct {
     uint16_t root_link;    /* first pair, or first triangle of the leaf */
     int16_t radiance_exp;  /* one radiance unit is 2^this, -64..64 */
     int16_t exposure_q8;   /* stops, s7.8: picture = radiance * 2^this */
+    uint8_t auto_direct;   /* ql_direct_t: what QL_DIRECT_AUTO is here */
+    uint8_t auto_lights;   /* ql_light_choice_t: what QL_LIGHTS_AUTO is */
     uint16_t image_width;  /* pixels, 1..16384 */
     uint16_t image_height;
+    /* for people, not the core */
     int16_t unit_exp;       /* one grid unit is unit_m * 2^unit_exp of a */
-    uint32_t unit_m;        /*   scene unit; for people, not the core */
-    uint8_t auto_direct;    /* ql_direct_t: what QL_DIRECT_AUTO is here */
-    uint8_t auto_lights;    /* ql_light_choice_t: QL_LIGHTS_AUTO */
-    uint8_t trials[6];      /* QL_BLOB_TRIALS; for people, not the core */
+    uint8_t trials[6];      /* QL_BLOB_TRIALS */
+    uint32_t unit_m;        /* scene unit */
     ql_blob_table_t camera; /* count is 1 */
     ql_blob_table_t vertices;
     ql_blob_table_t triangles;

@@ -56,8 +56,8 @@ PRECISIONS ?= draft fine
 define on_boards
 @for board in $(1); do for precision in $(PRECISIONS); do \
     $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
-        PRECISION=$$precision EMULATED=1 DIAG=1 VARIANT=-$(2)-$$precision $(3) \
-        || exit; \
+        PRECISION=$$precision EMULATED=1 DIAG=1 DIRECT=area LIGHTS=power \
+        VARIANT=-$(2)-$$precision $(3) || exit; \
 done; done
 endef
 bench_main = BOARD_MAIN='$(addprefix tests/bench/,$(1) bench_board.c)'
@@ -67,7 +67,8 @@ bench-boards: $O/$(scene).qlb
 	    bench_main,bench_main.c rays/bench_rays.c))
 	@for board in $(BOARDS); do \
 	    $(MAKE) -s --no-print-directory bench-board BOARD=$$board \
-	        EMULATED=1 DIAG=1 VARIANT=-bench-float FLOAT=1 OPT=-O2 \
+	        EMULATED=1 DIAG=1 DIRECT=area LIGHTS=power \
+	        VARIANT=-bench-float FLOAT=1 OPT=-O2 \
 	        $(call bench_main,bench_main.c rays/bench_rays.c rays/float_pt.c) \
 	        > $O/$$board/bench-float || exit; \
 	    grep ' float ' $O/$$board/bench-float; \

@@ -105,6 +105,7 @@ ql_status_t bench_open(
     settings.spp = QL_BENCH_SPP;
     settings.bounces = QL_BENCH_BOUNCES;
     settings.direct = (uint8_t)direct;
+    settings.lights = QL_LIGHTS_POWER;
     ql_hal_scene_blob(&blob, &size);
     status = ql_blob_open(scene, blob, size);
     return status == QL_OK ? ql_render_init(render, scene, &settings) : status;

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "support/built.h"
 #include "support/picture/estimate.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
@@ -156,9 +157,12 @@ TEST(case_37_the_rest_of_a_number_is_uniform_and_each_light_is_chosen)
         check_rest(i, bounds[i], bounds[i + 1]);
     }
     make_row(20, 0xfffff, &scene);
-    for (unsigned choice = 0; choice < 2 * QL_CFG_STRATEGIES + 1u;
-            choice += 2) {
+    for (unsigned choice = 0; choice < 3; choice += 2) {
         uint32_t found = 0;
+
+        if (!BUILT_HAS_LIGHTS(choice)) {
+            continue;
+        }
 
         for (uint32_t v = 0; v < 65536; v++) {
             const uint16_t i =

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/ql_crc.h"
+#include "support/built.h"
 #include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_points.h"
@@ -216,8 +217,8 @@ TEST(case_06_triangles_without_area_are_never_hit_and_shine_nothing)
             ql_render_t render;
 
             s.direct = (uint8_t)direct;
-            if (!QL_CFG_STRATEGIES && direct > QL_DIRECT_AREA) {
-                break;
+            if (!BUILT_HAS_DIRECT(direct)) {
+                continue;
             }
             CHECK(ql_render_init(&render, &scene, &s) == QL_OK, "settings");
             ql_render_pixel(&render, 0, 0, 0, 2000, &sum);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "support/built.h"
 #include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_points.h"
@@ -44,7 +45,7 @@ static void look_down(double x, double y, double z)
 
 static bool is_built(unsigned direct)
 {
-    return QL_CFG_STRATEGIES || direct == QL_DIRECT_AREA;
+    return BUILT_HAS_DIRECT(direct);
 }
 
 static ql_settings_t settings_of(unsigned direct, uint8_t bounces)
@@ -94,7 +95,7 @@ static void check_mean(
 static double reject(double want, double scale)
 {
     const ql_settings_t s = settings_of(
-            QL_CFG_STRATEGIES ? QL_DIRECT_SOLID_ANGLE : QL_DIRECT_AREA, 0);
+            QL_SOLID_ANGLE ? QL_DIRECT_SOLID_ANGLE : QL_DIRECT_AREA, 0);
     stats_moments_t got;
     double z;
 

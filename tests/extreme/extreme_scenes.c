@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "support/built.h"
 #include "support/picture/estimate.h"
 #include "support/picture/lambert.h"
 #include "support/ql_points.h"
@@ -33,7 +34,7 @@ static ql_settings_t settings_of(unsigned direct, uint8_t bounces)
 
 static bool is_built(unsigned direct)
 {
-    return QL_CFG_STRATEGIES || direct == QL_DIRECT_AREA;
+    return BUILT_HAS_DIRECT(direct);
 }
 
 /* Two of them: counter-clockwise seen from above, if up. */
@@ -148,7 +149,7 @@ static uint64_t total_of(uint8_t bounces)
     for (unsigned direct = QL_DIRECT_NONE; direct <= QL_DIRECT_MIS; direct++) {
         const ql_settings_t s = settings_of(direct, bounces);
 
-        if (direct == QL_DIRECT_NONE || is_built(direct)) {
+        if (is_built(direct)) {
             sum += estimate_brightest(&m, &s, 16);
         }
     }
@@ -176,7 +177,7 @@ TEST(case_50_empty_scenes_no_lights_one_triangle_one_pixel_no_samples)
         CHECK(total_of(64) == 0, "a scene without lights is not black");
         m.materials[0].emission[1] = RADIANCE;
         CHECK(total_of(0) == 6 * ((uint64_t)16 << (QL_SUM_BITS - 1)) ||
-                        !QL_CFG_STRATEGIES,
+                        QL_CFG_DIRECT != 63,
                 "one triangle that shines");
     }
     mini_open(&m, &scene);

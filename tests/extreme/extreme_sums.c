@@ -189,7 +189,7 @@ static void make_gray_furnace(double albedo)
     make_furnace(gray, unit);
 }
 
-#if QL_CFG_STRATEGIES
+#if QL_CFG_DIRECT & 8 && QL_CFG_ROULETTE
 /* By cosine no sample differs from another, so one is enough. Bounds: a
  * throughput is off by half an ulp of 2^-31 at each of K reflections, and each
  * of K + 1 contributions by half of 2^-24; the albedo by half of 2^-31. */
@@ -450,7 +450,7 @@ TEST(case_53_channels_of_0_and_of_the_most_are_independent)
                 (unsigned long long)colour.rgb[k],
                 (unsigned long long)alone.rgb[0]);
     }
-#if QL_CFG_STRATEGIES
+#if QL_CFG_ROULETTE
     /* roulette goes by the largest channel: each one's mean stays */
     {
         ql_settings_t with = s;
@@ -515,7 +515,7 @@ int main(int argc, char **argv)
     TEST_BEGIN("extreme/sums", argc, argv);
     RUN(case_40_1_to_2_to_24_samples_of_a_constant_are_the_constant);
     RUN(case_41_sums_saturate_at_their_ends_are_counted_and_never_wrap);
-#if QL_CFG_STRATEGIES
+#if QL_CFG_DIRECT & 8 && QL_CFG_ROULETTE
     RUN(case_42_furnace_of_64_bounces_is_the_series_and_1_stays_1);
     RUN(case_43_roulette_changes_no_mean_and_no_path_of_albedo_1_dies);
 #endif

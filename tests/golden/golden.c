@@ -418,6 +418,8 @@ static void add_pictures(const ql_scene_t scenes[2])
         settings.width = settings.height = SIZE;
         settings.spp = 4;
         settings.bounces = 4;
+        settings.direct = QL_DIRECT_AREA;
+        settings.lights = QL_LIGHTS_POWER;
         settings.sampler = (uint8_t)(i % 2);
         add_lines(scenes + i / 2, names[i], settings);
         settings.width = 17;

@@ -226,7 +226,8 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
         ql_ray_t ray, unsigned bounces, ql_sum_t *sum)
 {
     static const ql_rgb_t one = {{QL_UQ31_ONE, QL_UQ31_ONE, QL_UQ31_ONE}, 0};
-    const ql_settings_t settings = QL_SETTINGS_DEFAULT;
+    const ql_settings_t settings = {
+            .direct = QL_DIRECT_AREA, .light_samples = 1};
     ql_diag_t diag = {0};
     const ql_context_t context = {scene, &settings, sampler, sum, &diag};
     ql_vertex_t vertex = {.throughput = &one, .reflected = one};

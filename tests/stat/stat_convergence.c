@@ -53,6 +53,8 @@ static double variance_of(ql_sampler_kind_t sampler, uint8_t bounces,
 
         s.sampler = (uint8_t)sampler;
         s.bounces = bounces;
+        s.direct = QL_DIRECT_AREA;
+        s.lights = QL_LIGHTS_POWER;
         s.spp = spp;
         s.seed = 1000 + seed;
         render(pictures[seed], &s, repeats);

@@ -131,8 +131,9 @@ say settings_choose_the_picture_of_this_pc $?
 build -n firmware BOARD=microbit $choice ERROR=0.1 CURVE=reinhard
 for word in APP_WIDTH=8 APP_SEED=7 APP_BOUNCES=2 APP_LIGHTS=QL_LIGHTS_ALL \
     APP_DIRECT=QL_DIRECT_SOLID_ANGLE APP_ERROR=0.1 CFG_PRECISION=0 \
-    CFG_STRATEGIES=1 CFG_ADAPTIVE=1 CFG_INDIRECT=1 CFG_FORMATS=1 \
-    CFG_CURVES=2 APP_CURVE=QL_CURVE_REINHARD; do
+    CFG_DIRECT=16 CFG_LIGHT_CHOICES=2 CFG_UNIFORM=1 CFG_ADAPTIVE=1 \
+    CFG_INDIRECT=1 CFG_FORMATS=1 CFG_CURVES=2 \
+    APP_CURVE=QL_CURVE_REINHARD; do
     grep -q -- "-DQL_$word " "$work/said" || echo "lacks $word"
 done >"$work/lacking"
 [ ! -s "$work/lacking" ]
@@ -146,16 +147,26 @@ gates() {
     done
 }
 {
-    gates '' 'STRATEGIES=0 ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17 CURVES=0'
     gates 'CURVE=filmic' 'CURVES=1'
+    none='LIGHT_SAMPLES=0 UNIFORM=0 ROULETTE=0'
+    gates '' "$none ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17 CURVES=0"
     ! grep -q QL_APP_ERROR "$work/said" || echo 'an error that none asked for'
-    gates 'DIRECT=none LIGHT_SAMPLES=1 LIGHTS=power' 'STRATEGIES=0'
-    gates 'DIRECT=mis' 'STRATEGIES=1'
-    gates 'LIGHT_SAMPLES=2' 'STRATEGIES=1'
-    gates 'ROULETTE=1' 'STRATEGIES=1'
-    gates 'INDIRECT=cosine BOUNCES=64' 'STRATEGIES=0 INDIRECT=1'
+    # what auto is, the scene's header says
+    ! grep -q 'QL_CFG_DIRECT\|QL_CFG_LIGHT_CHOICES' "$work/said" ||
+        echo 'a way of finding light that none asked for'
+    grep -q 'APP_DIRECT=QL_SCENE_DIRECT .*APP_LIGHTS=QL_SCENE_LIGHTS ' \
+        "$work/said" || echo 'auto is not what the scene says'
+    gates 'DIRECT=none LIGHT_SAMPLES=1 LIGHTS=power' \
+        "$none DIRECT=1 LIGHT_CHOICES=1"
+    gates 'DIRECT=mis' "$none DIRECT=32"
+    gates 'LIGHT_SAMPLES=2' 'LIGHT_SAMPLES=1 UNIFORM=0 ROULETTE=0'
+    gates 'ROULETTE=1' 'LIGHT_SAMPLES=0 UNIFORM=0 ROULETTE=1'
+    gates 'INDIRECT=uniform' 'LIGHT_SAMPLES=0 UNIFORM=1 ROULETTE=0 INDIRECT=1'
+    gates 'INDIRECT=cosine BOUNCES=64' "$none INDIRECT=1"
     gates 'BOUNCES=0' 'INDIRECT=0'
-    gates 'INDIRECT=none' 'INDIRECT=0 STRATEGIES=0'
+    gates 'INDIRECT=none' "INDIRECT=0 $none"
+    gates 'DIRECT=mis STRATEGIES=1' 'DIRECT=63 LIGHT_CHOICES=7 LIGHT_SAMPLES=1
+        UNIFORM=1 ROULETTE=1'
     gates 'SAMPLER=random SMALL=1' 'SAMPLERS=1 SMALL=1 DIAG=0'
 } >"$work/lacking"
 [ ! -s "$work/lacking" ]
@@ -181,9 +192,9 @@ while IFS='|' read -r words text; do
 done >"$work/wrong" <<'END'
 PRECISION=fien|PRECISION=fien: use draft or fine
 SAMPLER=sobl|SAMPLER=sobl: use random or sobol
-DIRECT=foo|use none, area, hemisphere, cosine, solid-angle or mis
+DIRECT=foo|use none, area, hemisphere, cosine, solid-angle, mis or auto
 INDIRECT=foo|use none, cosine, uniform or brdf
-LIGHTS=some|use power, all or uniform
+LIGHTS=some|use power, all, uniform or auto
 SPP=abc|use a number from 1 to 16777216
 SPP=0|use a number from 1 to 16777216
 SPP=16777217|use a number from 1 to 16777216
@@ -207,7 +218,6 @@ BOARD=microbit LTO=yes firmware|LTO=yes: use 0 or 1
 BOARD=microbit DIAG=2 firmware|DIAG=2: use 0 or 1
 BOARD=microbit EMULATED=2 firmware|EMULATED=2: use 0 or 1
 BOARD=microbit STRATEGIES=2 firmware|STRATEGIES=2: use 0 or 1
-BOARD=microbit DIRECT=mis STRATEGIES=0 run|DIRECT=mis needs STRATEGIES=1
 BORAD=microbit run|make knows no variable of this name
 SPPP=3|make knows no variable of this name
 BOARD=microbit|BOARD=microbit: make all does not use it; make run,

@@ -65,9 +65,9 @@ expect a_map_that_is_no_pfm_is_refused 1 'ends in .pfm' \
     "$sim" scene.qlb -o a.ppm --samples-map a.ppm
 expect indirect_of_no_name_lists_the_names 1 'uniform or brdf' \
     "$sim" scene.qlb -o a.ppm --indirect magic
-expect lights_of_no_name_lists_the_names 1 'all or uniform' \
+expect lights_of_no_name_lists_the_names 1 'uniform or auto' \
     "$sim" scene.qlb -o a.ppm --lights magic
-expect a_strategy_of_no_name_lists_the_names 1 'solid-angle or mis' \
+expect a_strategy_of_no_name_lists_the_names 1 'mis or auto' \
     "$sim" scene.qlb -o a.ppm --direct magic
 expect threads_0_are_refused 1 'from 1 to 1024' \
     "$sim" scene.qlb -o a.ppm --threads 0
@@ -338,8 +338,8 @@ say n_directions_have_an_effect $?
 
 # Numbers
 "$sim" scene.qlb --save-sums n.qls $small --stats >stats.txt
-grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 8 ]
-say stats_are_eight_numbers $?
+grep -q '^paths: [1-9]' stats.txt && [ "$(grep -c ': ' stats.txt)" -eq 10 ]
+say stats_are_eight_figures_and_the_way_of_finding_light $?
 # One ray from the eye, one to the lamp, a path; times a weight that a dump was
 # given all three channels of all sixteen are cut.
 "$build/qlux-scene" "$root/tests/scenes/square.scene" \
@@ -355,7 +355,8 @@ stats() {
     { printf '%s\n' 'paths: 16' 'closest-rays: 16' 'shadow-rays: 16' \
         'rays-per-path: 2.000'
       [ -z "$4" ] || printf '%s\n' "saturated: $4" 'faint: 0'
-      printf '%s\n' 'seconds: S' "precision: $3"; } | cmp -s - out.txt &&
+      printf '%s\n' 'seconds: S' "precision: $3" 'direct: area' \
+        'lights: power'; } | cmp -s - out.txt &&
         [ ! -s err.txt ]
     say "$2_says_each_figure_of_$1" $?
 }
@@ -371,6 +372,24 @@ say contributions_that_are_cut_are_a_warning $?
 "$sim" square.qlb -o n.pfm $one >out.txt 2>err.txt
 [ $? -eq 0 ] && [ ! -s out.txt ] && [ ! -s err.txt ]
 say without_them_nothing_is_said $?
+# What a scene says of auto is what is rendered, saved and said: mis by all.
+sed 's/^auto .*/auto 5 1/' square.txt >auto.txt
+"$build/qlux-scene" auto.txt -o auto.qlb --quiet
+for renderer in qlux-sim qlux-sim-draft qlux-ref; do
+    "$build/$renderer" auto.qlb -o auto.pfm $small --stats >stats.txt &&
+        "$build/$renderer" auto.qlb -o named.pfm $small --direct mis \
+            --lights all &&
+        "$build/$renderer" auto.qlb -o other.pfm $small --direct area \
+            --lights power && cmp -s auto.pfm named.pfm &&
+        ! cmp -s auto.pfm other.pfm &&
+        [ "$(tail -n 2 stats.txt | paste -s -)" = 'direct: mis	lights: all' ]
+    say "auto_of_${renderer}_is_what_the_scene_says" $?
+done
+"$sim" auto.qlb --save-sums auto.qls $small --samples 0:3 &&
+    "$sim" auto.qlb --save-sums named.qls $small --samples 3:8 --direct mis \
+        --lights all && "$build/qlux-merge" auto.qls named.qls -o merged.pfm &&
+    "$sim" auto.qlb -o whole.pfm $small --spp 8 && cmp -s merged.pfm whole.pfm
+say parts_of_auto_and_by_name_are_one_picture $?
 # In a closed room of white walls every path has all of its rays.
 "$build/qlux-scene" "$root/tests/scenes/furnace.scene" \
     --direct area -o room.qlb --quiet

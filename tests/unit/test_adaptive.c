@@ -605,7 +605,8 @@ int main(int argc, char **argv)
 #if QL_CFG_LIGHTS
     RUN(constant_radiance_stops_at_the_minimum_exactly);
 #endif
-    RUN(black_pixels_take_the_stated_number);
+    RUN_IF(BUILT_HAS_DIRECT(QL_DIRECT_NONE),
+            black_pixels_take_the_stated_number);
     RUN(more_error_allowed_never_takes_more_samples);
     RUN(lines_are_made_of_these_pixels_in_any_order);
 #endif

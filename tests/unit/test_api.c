@@ -424,12 +424,13 @@ TEST(strategies_of_none_leave_only_what_is_seen)
 /* What each claim below needs. */
 #define LENS_AND_PIXEL (QL_CFG_LENS && QL_CFG_LIGHTS)
 #define MANY_SAMPLES                                                           \
-    (QL_CFG_STRATEGIES && QL_CFG_LIGHTS && (QL_CFG_SAMPLERS & 1) != 0)
+    (QL_CFG_LIGHT_SAMPLES && QL_CFG_LIGHTS && (QL_CFG_SAMPLERS & 1) != 0)
 #define ROULETTE                                                               \
-    (MANY_SAMPLES && QL_CFG_MIRROR && QL_CFG_SKY && QL_CFG_INDIRECT)
+    (QL_CFG_ROULETTE && QL_CFG_MIRROR && QL_CFG_SKY && QL_CFG_INDIRECT &&      \
+            (QL_CFG_SAMPLERS & 1) != 0)
 #define SHADOW_RAYS (QL_CFG_DIAG && QL_CFG_LIGHTS)
 
-#if LENS_AND_PIXEL || MANY_SAMPLES || SHADOW_RAYS || QL_CFG_DIAG
+#if LENS_AND_PIXEL || MANY_SAMPLES || ROULETTE || SHADOW_RAYS || QL_CFG_DIAG
 /* A square across the line of sight, 8000 ahead, from x to 4000 to the right of
  * the middle; it faces the eye. */
 static void put_ahead(int32_t x, uint16_t material)
@@ -525,7 +526,7 @@ TEST(samples_of_a_light_vary_less_the_more_there_are)
     mini_quad(&mini, lamp[0], lamp[1], lamp[2], lamp[3],
             mini_material(&mini, 0, 0.5));
     mini_eye(&mini, 16384, 16384, 8500);
-    for (int all = 0; all < 2; all++) {
+    for (int all = 0; all < 1 + BUILT_HAS_LIGHTS(QL_LIGHTS_ALL); all++) {
         ql_settings_t s = estimate_settings(QL_SAMPLER_RANDOM, 0, 8);
         stats_moments_t one, more;
         double ratio;
@@ -673,7 +674,8 @@ int main(int argc, char **argv)
     RUN(settings_outside_their_range_are_refused);
     RUN(settings_at_their_limits_render);
     RUN(a_size_of_zero_is_the_scenes_own);
-    RUN(strategies_of_none_leave_only_what_is_seen);
+    RUN_IF(BUILT_HAS_DIRECT(QL_DIRECT_NONE),
+            strategies_of_none_leave_only_what_is_seen);
 #if LENS_AND_PIXEL
     RUN(points_of_the_pixel_and_of_the_lens_are_unrelated);
 #endif

@@ -376,10 +376,11 @@ static void try_damaged(const uint8_t *copy, size_t size)
     settings.spp = 2;
     settings.bounces = BUILT_BOUNCES(3);
     settings.seed = (uint32_t)accepted;
-#if QL_CFG_STRATEGIES
-    settings.direct = (uint8_t)(accepted % (QL_DIRECT_MIS + 1));
+#if QL_CFG_DIRECT == 63 && QL_CFG_LIGHT_CHOICES == 7 && QL_CFG_UNIFORM &&      \
+        QL_CFG_ROULETTE
+    settings.direct = (uint8_t)(accepted % (QL_DIRECT_AUTO + 1));
     settings.indirect = (uint8_t)(accepted / 8 % (QL_INDIRECT_BRDF + 1));
-    settings.lights = (uint8_t)(accepted / 4 % (QL_LIGHTS_UNIFORM + 1));
+    settings.lights = (uint8_t)(accepted / 4 % (QL_LIGHTS_AUTO + 1));
     settings.roulette = accepted / 2 % 2;
 #endif
     if (ql_render_init(&render, &scene, &settings) == QL_OK) {

@@ -26,7 +26,7 @@ TEST(every_density_has_the_same_mean)
                 check_density(i, k, kd, ks);
                 density = QL_DENSITY_COSINE;
                 check_density(i, k, kd, ks);
-#if QL_CFG_STRATEGIES
+#if QL_UNIFORM_DIRECTIONS
                 density = QL_DENSITY_UNIFORM;
                 check_density(i, k, kd, ks);
 #endif
@@ -77,7 +77,7 @@ TEST(lobes_of_no_chance_are_never_drawn)
     }
 }
 
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 /* P (n + 1)/(2 pi) cos^n of the angle to the mirror direction, and (1 - P)
  * cos/pi. Rounding moves the angle by ROUNDED, so cos^n by n tan of it. */
 TEST(densities_are_those_of_the_lobe_drawn)
@@ -195,7 +195,7 @@ TEST(light_from_all_around_is_reflected_by_the_albedo)
     }
 }
 
-#if QL_CFG_STRATEGIES
+#if QL_MIS
 static bool in_cap(ql_vec3_t direction)
 {
     return dot(unit(from_vec(direction)), cap_axis) > 1 - cap_s;
@@ -296,7 +296,7 @@ static void check_grazing(long *reflected_count, long *through)
     for (long k = 0; k < MANY(60000); k++) {
         const ql_uniform2_t u = {0, 0};
         ql_bsdf_sample_t sample;
-        ql_real_t pdf, *const asked = QL_CFG_STRATEGIES ? &pdf : NULL;
+        ql_real_t pdf, *const asked = QL_MIS ? &pdf : NULL;
         ql_vec3_t incoming;
 
         set_normal(random_normal());
@@ -370,9 +370,7 @@ static unsigned long extremes(double most)
                                            : i % 3 == 1 ? QL_DENSITY_COSINE
                                                         : QL_DENSITY_UNIFORM;
                 ql_bsdf_sample_t sample;
-                ql_real_t pdf, *const asked = QL_CFG_STRATEGIES && (i & 16)
-                                                      ? &pdf
-                                                      : NULL;
+                ql_real_t pdf, *const asked = QL_MIS && (i & 16) ? &pdf : NULL;
 
                 if (ql_bsdf_sample(&bsdf, i & 8 ? QL_DENSITY_SPECULAR : which,
                             corners[i / (CORNERS * CORNERS)], u, &sample,
@@ -424,11 +422,11 @@ int main(int argc, char **argv)
     RUN(every_density_has_the_same_mean);
     RUN(colours_of_both_lobes_keep_apart);
     RUN(lobes_of_no_chance_are_never_drawn);
-#if QL_CFG_STRATEGIES
+#if QL_MIS
     RUN(densities_are_those_of_the_lobe_drawn);
 #endif
     RUN(light_from_all_around_is_reflected_by_the_albedo);
-#if QL_CFG_STRATEGIES
+#if QL_MIS
     RUN(light_and_directions_and_both_have_the_same_mean);
     RUN_IF(TABLES_EXACT, a_density_without_the_chance_is_rejected);
 #endif

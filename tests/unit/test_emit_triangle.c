@@ -5,19 +5,34 @@
 
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
+#include "support/built.h"
 #include "support/picture/lamps.h"
 #include "support/ql_stats.h"
 #include "support/ql_test.h"
 #include "warp/ql_warp_plane.h"
 
-TEST(only_strategies_draw_by_more_than_area)
+TEST(a_way_of_finding_light_is_no_other_and_none_that_is_not_built)
 {
-    CHECK(ql_emit_is_by(QL_DIRECT_AREA, QL_DIRECT_AREA) &&
-                    !ql_emit_is_by(QL_DIRECT_AREA, QL_DIRECT_SOLID_ANGLE),
-            "area");
-    CHECK(ql_emit_is_by(QL_DIRECT_SOLID_ANGLE, QL_DIRECT_SOLID_ANGLE) ==
-                    (QL_CFG_STRATEGIES != 0),
-            "solid angle");
+    for (unsigned i = QL_DIRECT_NONE; i <= QL_DIRECT_MIS; i++) {
+        for (unsigned k = QL_DIRECT_NONE; k <= QL_DIRECT_MIS; k++) {
+            if (BUILT_HAS_DIRECT(i)) {
+                CHECK(ql_direct_is(i, (ql_direct_t)k) == (i == k), "%u, %u", i,
+                        k);
+            } else {
+                CHECK(!ql_direct_is(i, (ql_direct_t)i), "%u", i);
+            }
+        }
+    }
+    for (unsigned i = QL_LIGHTS_POWER; i <= QL_LIGHTS_UNIFORM; i++) {
+        for (unsigned k = QL_LIGHTS_POWER; k <= QL_LIGHTS_UNIFORM; k++) {
+            if (BUILT_HAS_LIGHTS(i)) {
+                CHECK(ql_lights_is(i, (ql_light_choice_t)k) == (i == k),
+                        "lights %u, %u", i, k);
+            } else {
+                CHECK(!ql_lights_is(i, (ql_light_choice_t)i), "lights %u", i);
+            }
+        }
+    }
 }
 
 #if QL_CFG_LIGHTS
@@ -130,7 +145,7 @@ TEST(points_average_to_the_centre_of_gravity)
 int main(int argc, char **argv)
 {
     TEST_BEGIN("unit/test_emit_triangle", argc, argv);
-    RUN(only_strategies_draw_by_more_than_area);
+    RUN(a_way_of_finding_light_is_no_other_and_none_that_is_not_built);
 #if QL_CFG_LIGHTS
     RUN(points_are_within_half_a_unit);
     RUN(points_average_to_the_centre_of_gravity);

@@ -1,22 +1,32 @@
 /* test_gates.c - settings that need a part this build lacks are refused */
 /* SPDX-License-Identifier: MIT */
 
+#include "support/built.h"
 #include "support/ql_test.h"
 #include "render/ql_line.h"
 
+/* What the scene says that auto is. */
+static uint8_t auto_direct = QL_DIRECT_AREA, auto_lights = QL_LIGHTS_POWER;
+
 static ql_status_t init_with(const ql_settings_t *settings)
 {
-    static const ql_blob_header_t header;
+    ql_blob_header_t header;
     static const ql_blob_camera_t camera;
     ql_scene_t scene;
     ql_render_t render;
     ql_status_t status;
 
+    memset(&header, 0, sizeof header);
+    header.auto_direct = auto_direct;
+    header.auto_lights = auto_lights;
     memset(&scene, 0, sizeof scene);
     scene.header = &header;
     scene.camera = &camera;
     status = ql_render_init(&render, &scene, settings);
-    CHECK(status == QL_OK || render.scene == NULL, "not zero after %d", status);
+    CHECK(status == QL_OK ? render.settings.direct <= QL_DIRECT_MIS &&
+                                    render.settings.lights <= QL_LIGHTS_UNIFORM
+                          : render.scene == NULL,
+            "not zero, or not resolved after %d", status);
     return status;
 }
 
@@ -71,18 +81,50 @@ TEST(bounces_are_accepted_if_paths_are_built_in)
     expect("one bounce", s, QL_CFG_INDIRECT);
 }
 
-TEST(estimators_are_accepted_if_strategies_are_built_in)
+/* By name, and where a scene says it. */
+TEST(each_way_of_finding_light_is_accepted_if_it_is_built_in)
 {
     ql_settings_t s = least();
 
-    s.direct = QL_DIRECT_MIS;
-    expect("mis", s, QL_CFG_STRATEGIES);
+    for (unsigned i = 0; i <= 255; i++) {
+        const bool built = i <= QL_DIRECT_MIS && BUILT_HAS_DIRECT(i);
+
+        s.direct = (uint8_t)i;
+        expect("direct", s, built || i == QL_DIRECT_AUTO);
+        s.direct = QL_DIRECT_AUTO;
+        auto_direct = (uint8_t)i;
+        expect("direct of the scene", s, built);
+        auto_direct = QL_DIRECT_AREA;
+    }
+    for (unsigned i = 0; i <= 255; i++) {
+        const bool built = i <= QL_LIGHTS_UNIFORM && BUILT_HAS_LIGHTS(i);
+
+        s.lights = (uint8_t)i;
+        expect("lights", s, built || i == QL_LIGHTS_AUTO);
+        s.lights = QL_LIGHTS_AUTO;
+        auto_lights = (uint8_t)i;
+        expect("lights of the scene", s, built);
+        auto_lights = QL_LIGHTS_POWER;
+    }
+}
+
+TEST(what_else_an_estimator_does_is_accepted_if_it_is_built_in)
+{
+    ql_settings_t s = least();
+
+    s.light_samples = 0;
+    expect("no sample", s, false);
+    s.light_samples = 2;
+    expect("two samples", s, QL_CFG_LIGHT_SAMPLES);
     s = least();
-    s.lights = QL_LIGHTS_UNIFORM;
-    expect("uniform lights", s, QL_CFG_STRATEGIES);
+    s.bounces = 0;
+    s.indirect = QL_INDIRECT_UNIFORM;
+    expect("uniform directions", s, QL_CFG_UNIFORM);
     s = least();
     s.roulette = 1;
-    expect("roulette", s, QL_CFG_STRATEGIES);
+    expect("roulette", s, QL_CFG_ROULETTE);
+    s.roulette = 2;
+    expect("more than roulette", s, false);
 }
 
 int main(int argc, char **argv)
@@ -91,6 +133,7 @@ int main(int argc, char **argv)
     RUN(what_every_build_has_is_accepted);
     RUN(a_sampler_is_accepted_if_it_is_built_in);
     RUN(bounces_are_accepted_if_paths_are_built_in);
-    RUN(estimators_are_accepted_if_strategies_are_built_in);
+    RUN(each_way_of_finding_light_is_accepted_if_it_is_built_in);
+    RUN(what_else_an_estimator_does_is_accepted_if_it_is_built_in);
     return TEST_END();
 }

@@ -7,6 +7,7 @@
 #include "blob/ql_blob_open.h"
 #include "light/ql_emit_triangle.h"
 #include "light/ql_light.h"
+#include "support/built.h"
 #include "support/picture/lamps.h"
 #include "support/ql_test.h"
 
@@ -68,7 +69,8 @@ TEST(probabilities_are_the_shares_and_add_up_to_1)
 
     for (unsigned lamps = 1; lamps <= 12; lamps++) {
         build_lamps(lamps);
-        for (int k = 0; k < (QL_CFG_STRATEGIES ? 2 : 1); k++) {
+        for (int k = 0; k < (BUILT_HAS_LIGHTS(QL_LIGHTS_UNIFORM) ? 2 : 1);
+                k++) {
             double sum = 0;
 
             for (uint16_t i = 0; i < lamps; i++) {
@@ -78,7 +80,9 @@ TEST(probabilities_are_the_shares_and_add_up_to_1)
                 CHECK(k == 1 ? fabs(pmf * lamps - 1) <= lamps * 0x1p-32
                              : pmf == mass_of(i),
                         "light %u of %u: %.12f", i, lamps, pmf);
-                CHECK(value(ql_light_pmf(&scene, QL_LIGHTS_ALL, i)) == 1,
+                CHECK(!BUILT_HAS_LIGHTS(QL_LIGHTS_ALL) ||
+                                value(ql_light_pmf(&scene, QL_LIGHTS_ALL, i)) ==
+                                        1,
                         "light %u of %u", i, lamps);
             }
             CHECK(sum == 1, "%u lights: %.12f", lamps, sum);
@@ -104,7 +108,7 @@ TEST(weights_times_probabilities_count_every_emitter_once)
     NOTE("%.4f of 12", sum);
 }
 
-#if QL_CFG_STRATEGIES
+#if QL_CFG_LIGHT_CHOICES & 4
 /* The bounds of equal shares: the last u of each light and the next one. */
 TEST(uniform_choice_has_the_probability_it_divides_by)
 {
@@ -178,6 +182,9 @@ TEST(equal_shares_are_exact_of_every_light_of_very_many)
     NOTE("%lu lights", lights);
 }
 
+#endif
+
+#if QL_CFG_LIGHT_CHOICES & 2 && QL_CFG_LIGHT_SAMPLES
 TEST(samples_divide_the_weight_and_all_lights_weigh_1)
 {
     build_lamps(5);
@@ -194,6 +201,9 @@ TEST(samples_divide_the_weight_and_all_lights_weigh_1)
     }
 }
 
+#endif
+
+#if QL_MIS
 TEST(each_light_is_found_by_its_triangle_and_nothing_else_is)
 {
     for (unsigned lamps = 1; lamps <= 12; lamps++) {
@@ -236,10 +246,14 @@ int main(int argc, char **argv)
     RUN(each_emitter_is_chosen_for_its_share_and_weighs_its_inverse);
     RUN(probabilities_are_the_shares_and_add_up_to_1);
     RUN(weights_times_probabilities_count_every_emitter_once);
-#if QL_CFG_STRATEGIES
+#if QL_CFG_LIGHT_CHOICES & 4
     RUN(uniform_choice_has_the_probability_it_divides_by);
     RUN(equal_shares_are_exact_of_every_light_of_very_many);
+#endif
+#if QL_CFG_LIGHT_CHOICES & 2 && QL_CFG_LIGHT_SAMPLES
     RUN(samples_divide_the_weight_and_all_lights_weigh_1);
+#endif
+#if QL_MIS
     RUN(each_light_is_found_by_its_triangle_and_nothing_else_is);
 #endif
 #else

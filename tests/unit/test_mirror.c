@@ -41,7 +41,7 @@ TEST(mirrors_reflect_at_equal_angles)
         ql_vec3_t incoming;
         point_t in;
         ql_bsdf_sample_t sample;
-        ql_real_t pdf, *const asked = QL_CFG_STRATEGIES ? &pdf : NULL;
+        ql_real_t pdf, *const asked = QL_MIS ? &pdf : NULL;
         double off;
 
         set_normal(random_normal());
@@ -84,7 +84,7 @@ TEST(mixed_mirrors_draw_each_lobe_with_its_chance)
     see_at(40);
     CHECK(ql_bsdf_has_specular(&bsdf) && ql_bsdf_has_nonspecular(&bsdf),
             "lobes");
-    for (int i = 0; i < (QL_CFG_STRATEGIES ? 3 : 2); i++) {
+    for (int i = 0; i < (QL_UNIFORM_DIRECTIONS ? 3 : 2); i++) {
         estimate_t e;
         const ql_uniform2_t u = {0x12345678u, 0x9abcdef0u};
         ql_bsdf_sample_t sample;

@@ -248,24 +248,37 @@ function print_idle(settings,    r, member, where)
     }
 }
 
-function print_gates(    settings, key, member, k, need, formats)
+# A gate that is a set: all of it, or what is asked for. The scene's header has
+# that of auto.
+function print_set(gate, words, settings,    bits, n, part)
+{
+    bits = gates_set(gate, settings)
+    n = split(words, part, " ")
+    if (part[n] == "auto")
+        n--
+    if (bits == 2 ^ n && !value["STRATEGIES"])
+        return
+    define("QL_CFG_" gate, value["STRATEGIES"] ? 2 ^ n - 1 : bits)
+}
+
+function print_gates(    settings, key, k, need, formats, gates, n_gates)
 {
     for (k = 1; k <= n; k++)
         if (option[name[k]] ~ /^--/ && name[k] in value)
             settings[tolower(name[k])] = gates_value(in_c(name[k]))
     if (level == 0)
         print_idle(settings)
-    member = gates_need("STRATEGIES", settings)
-    key = "STRATEGIES" in value ? value["STRATEGIES"] + 0 : member != ""
-    if (!key && member != "")
-        fail("STRATEGIES=0: " toupper(member) "=" value[toupper(member)] \
-            " needs STRATEGIES=1")
-    define("QL_CFG_STRATEGIES", key)
+    print_set("DIRECT", words["DIRECT"], settings)
+    print_set("LIGHT_CHOICES", words["LIGHTS"], settings)
+    n_gates = split("UNIFORM LIGHT_SAMPLES ROULETTE", gates, " ")
+    for (k = 1; k <= n_gates; k++)
+        define("QL_CFG_" gates[k], value["STRATEGIES"] + 0 || \
+            gates_need(gates[k], settings) != "")
     need = gates_need("INDIRECT", settings) != ""
     define("QL_CFG_INDIRECT", need)
     print "board_indirect=" need
     define("QL_CFG_ADAPTIVE", "ERROR" in value && value["ERROR"] + 0 > 0)
-    define("QL_CFG_SAMPLERS", 2 ^ settings["sampler"])
+    define("QL_CFG_SAMPLERS", gates_set("SAMPLERS", settings))
     define("QL_CFG_CURVES", int(2 ^ settings["curve"] / 2))
     # The stream is RGB888; a panel may have another format.
     formats = 1
@@ -280,6 +293,7 @@ function print_gates(    settings, key, member, k, need, formats)
     define("QL_CFG_FORMATS", formats)
 }
 
+# What auto is, the scene's header says.
 function print_choice(key)
 {
     if (of[key] == "any" || of[key] == "scene" || !(key in value))
@@ -295,7 +309,8 @@ function print_choice(key)
         define("QL_APP_WIDTH", value[key] + 0)
         define("QL_APP_HEIGHT", substr(value[key], index(value[key], "x") + 1))
     } else
-        define(c_name[key], in_c(key))
+        define(c_name[key], value[key] == "auto" ? "QL_SCENE_" key : \
+            in_c(key))
 }
 
 END {

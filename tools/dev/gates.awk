@@ -6,7 +6,8 @@
 # Functions for other programs. gates_read() reads the enums, the numbers and
 # the rows of QL_SETTINGS_NEED and QL_SETTINGS_IDLE of
 # firmware/base/ql_settings.h, and the pixel formats of ql_format.h;
-# gates_need() says what settings need, gates_idle() which have no effect.
+# gates_set() and gates_need() say what settings need, gates_idle() which have
+# no effect.
 
 # solid-angle of QL_DIRECT_: QL_DIRECT_SOLID_ANGLE
 function gates_enumerator(prefix, word)
@@ -35,8 +36,8 @@ function gates_read(    file, line, names, n, i, at, text)
                 split(line, text, " ")
                 gates_number[text[2]] = text[3] + 0
             }
-            #     NEED(STRATEGIES, direct, QL_DIRECT_HEMISPHERE, ...)  \
-            if (line ~ /^ +(NEED|BOTH|IDLE)\(/)
+            #     NEED(ROULETTE, roulette, 1, 1)  \
+            if (line ~ /^ +(SET|NEED|BOTH|IDLE)\(/)
                 gates_row[++gates_rows] = ""
             if (gates_rows > 0 && gates_row[gates_rows] !~ /\)/) {
                 gsub(/[\\ ]/, "", line)
@@ -91,13 +92,25 @@ function gates_idle(r, settings,    part)
         gates_within(settings, part, 5)
 }
 
+# The bits of a gate that is a set: that of settings[MEMBER], a number. Sets
+# gates_member.
+function gates_set(gate, settings,    r, part)
+{
+    for (r = 1; r <= gates_rows; r++)
+        if (split(gates_row[r], part, /[(),]/) && part[1] == "SET" && \
+            part[2] == gate) {
+            gates_member = part[3]
+            return 2 ^ settings[part[3]]
+        }
+}
+
 # The member of ql_settings_t for which settings[MEMBER], numbers, need a gate;
 # nothing if they do not.
 function gates_need(gate, settings,    r, n, part, k, all)
 {
     for (r = 1; r <= gates_rows; r++) {
         n = split(gates_row[r], part, /[(),]/)
-        if (part[2] != gate)
+        if (part[2] != gate || part[1] == "SET")
             continue
         all = 1
         for (k = 3; k + 2 <= n && part[k] != ""; k += 3)

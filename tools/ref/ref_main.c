@@ -11,6 +11,7 @@
 #include "lib/render/open_blob.h"
 #include "lib/render/render_options.h"
 #include "lib/render/rows.h"
+#include "scene/ql_auto.h"
 
 static const option_section_t sections[] = {{NULL, render_options_scene},
         {NULL, render_options_picture},
@@ -162,22 +163,19 @@ static void write_display(const job_t *job, cli_out_t *out)
     free(rounded.row);
 }
 
-static void print_stats(const ref_stats_t *s, double seconds)
+static void print_stats(
+        const ref_stats_t *s, const ql_settings_t *settings, double seconds)
 {
     rows_print_stats(s->paths, s->closest_rays, s->shadow_rays);
     printf("seconds: %.3f\n", seconds);
     printf("precision: double\n");
+    render_options_print(settings);
 }
 
-/* Width and height as they will be; rows within them. */
+/* The picture as it will be; rows within it. */
 static void resolve(render_options_t *o, const ql_scene_t *scene)
 {
-    const ql_blob_header_t *h = scene->header;
-
-    if (o->settings.width == 0) {
-        o->settings.width = QL_LE16(h->image_width);
-        o->settings.height = QL_LE16(h->image_height);
-    }
+    ql_auto_resolve(&o->settings, scene->header);
     render_options_rows(o, o->settings.height);
 }
 
@@ -213,7 +211,7 @@ int main(int argc, char **argv)
     }
     cli_out_commit(&out);
     if (options.stats) {
-        print_stats(&job.stats, cli_seconds() - begun);
+        print_stats(&job.stats, &options.settings, cli_seconds() - begun);
     }
     free(job.rgb);
     ref_scene_free(&scene);

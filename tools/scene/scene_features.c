@@ -17,6 +17,15 @@ static const struct {
 #undef GATE
 };
 
+/* What auto is, and the gate of that unless the command line has another. */
+static void write_choice(
+        FILE *file, const char *name, const char *gate, unsigned choice)
+{
+    fprintf(file, "#define QL_SCENE_%s %u\n", name, choice);
+    fprintf(file, "#ifndef QL_CFG_%s\n#define QL_CFG_%s %u\n#endif\n", gate,
+            gate, 1u << choice); /* at most 5: checked, or made so */
+}
+
 void write_features(FILE *file, const model_t *model)
 {
     unsigned stack = model->header.depth;
@@ -31,4 +40,6 @@ void write_features(FILE *file, const model_t *model)
                 (model->header.features & gates[i].bit) != 0);
     }
     fprintf(file, "#define QL_CFG_BVH_STACK %u\n", stack);
+    write_choice(file, "DIRECT", "DIRECT", model->header.auto_direct);
+    write_choice(file, "LIGHTS", "LIGHT_CHOICES", model->header.auto_lights);
 }

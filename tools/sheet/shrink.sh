@@ -113,7 +113,7 @@ measure() {
     samples=$(((spp + $2 - 1) / $2))
     "$build/qlux-sim" "$dir/light.qlb" -o "$dir/light.pfm" --size 128x128 \
         --spp $samples --sampler random --bounces 0 --direct "$1" \
-        --light-samples "$2" --quiet || exit
+        --lights power --light-samples "$2" --quiet || exit
     tail -c $((128 * 128 * 12)) "$dir/light.pfm" | od -A n -v -t f4 |
         awk -v spp=$samples '
             { for (i = 1; i <= NF; i++) if (k++ % 3 == 0) value[++n] = $i }

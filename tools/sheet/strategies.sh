@@ -76,7 +76,7 @@ $make -s --no-print-directory "$build/$name.qlb" \
     "$build/qlux-sheet" SCENE="$scene" >"$dir/make.log" 2>&1 ||
     { cat "$dir/make.log" >&2; exit 2; }
 blob=$build/$name.qlb
-options="--bounces $bounces ${size:+--size $size}"
+options="--lights power --bounces $bounces ${size:+--size $size}"
 
 # render NAME OPTIONS...: NAME.png to look at, NAME.pfm to measure
 render() {

@@ -80,7 +80,8 @@ function choice(scene,    blob, out, spp, group, args)
     spp = cap * (deep && !quick ? 8 : 1)
     out = dir "/" scene "/" name
     args = enough " " blob_of(scene, blob) ".qlb --size " size[scene] \
-        " --spp " spp options
+        " --spp " spp " --direct " value("--direct", "area") " --lights " \
+        value("--lights", "power") others(options)
     keep(out ".args", args "\n")
     rule(out ".error", build "/trade/error-" core " " dir "/" scene "-a.pfm " \
         dir "/" scene "-b.pfm " blob_of(scene, blob) ".qlb " out ".args",
@@ -93,15 +94,24 @@ function choice(scene,    blob, out, spp, group, args)
         "|" options "|" group
 }
 
-# Does a firmware of these options need every estimator?
+# The options that say nothing of direct and lights.
+function others(options)
+{
+    gsub(/ --(direct|lights) [a-z-]+/, "", options)
+    return options
+}
+
+# Does a firmware of these options need more than area by power?
 function strategies(options,    settings)
 {
-    settings["direct"] = gates_value(enumerator("direct", "area"))
     settings["indirect"] = gates_value(enumerator("indirect", "brdf"))
-    settings["lights"] = gates_value(enumerator("lights", "power"))
     settings["light_samples"] = value("--light-samples", 1)
     settings["roulette"] = options ~ /--roulette/
-    return gates_need("STRATEGIES", settings) != ""
+    return value("--direct", "area") != "area" || \
+        value("--lights", "power") != "power" || \
+        gates_need("UNIFORM", settings) != "" || \
+        gates_need("LIGHT_SAMPLES", settings) != "" || \
+        gates_need("ROULETTE", settings) != ""
 }
 
 function value(option, otherwise,    words, n, i)
@@ -152,7 +162,8 @@ function firmware(group,    g, b, folder, key, part)
             blob_of(g[1], g[3]) ".qlb $(CORE)", "trade_cost",
             "BOARD=" boards[b] " SCENE=" g[1] " BLOB=" blob_of(g[1], g[3]) \
             " PRECISION=" part[1] " TABLE_BITS=" part[2] " TABLE_LERP=" \
-            part[3] " STRATEGIES=" g[4] " VARIANT=-" quick "-" key)
+            part[3] " DIRECT=area LIGHTS=power STRATEGIES=" g[4] \
+            " VARIANT=-" quick "-" key)
         targets = targets " " folder "/" boards[b] ".cost"
     }
 }

@@ -99,6 +99,8 @@ static void case_open(case_t *c, const char *name)
     settings.spp = PICTURE_SPP;
     c->spp = PICTURE_SPP;
     settings.bounces = BENCH_BOUNCES;
+    settings.direct = QL_DIRECT_AREA;
+    settings.lights = QL_LIGHTS_POWER;
     c->blob = read_file(name, &size);
     status = ql_blob_open(&c->scene, c->blob, size);
     if (status == QL_OK) {

@@ -127,6 +127,8 @@ static void open_case(case_t *c, const char *path)
         return;
     }
     c->settings = start;
+    c->settings.direct = QL_DIRECT_AREA;
+    c->settings.lights = QL_LIGHTS_POWER;
     c->settings.width = c->settings.height = SIZE;
     c->settings.spp = SPP;
     ref_scene_init(&c->scene, &c->blob);

@@ -39,6 +39,8 @@ static void render_core(const char *path)
     settings.width = settings.height = SIZE;
     settings.spp = SPP;
     settings.bounces = BOUNCES;
+    settings.direct = QL_DIRECT_AREA;
+    settings.lights = QL_LIGHTS_POWER;
     if (blob == NULL || ql_blob_open(&scene, blob, size) != QL_OK ||
             ql_render_init(&render, &scene, &settings) != QL_OK) {
         fail = "cannot open the blob";

@@ -46,6 +46,8 @@ static void begin(void)
     static const double right[3] = {0.5, 0, 0}, up[3] = {0, 0.5, 0};
 
     settings = start;
+    settings.direct = QL_DIRECT_AREA;
+    settings.lights = QL_LIGHTS_POWER;
     settings.spp = SPP;
     mini_begin(&m);
     m.width = m.height = SIZE;

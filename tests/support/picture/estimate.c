@@ -20,6 +20,8 @@ ql_settings_t estimate_settings(
 
     settings.sampler = (uint8_t)sampler;
     settings.bounces = bounces;
+    settings.direct = QL_DIRECT_AREA;
+    settings.lights = QL_LIGHTS_POWER;
     settings.seed = seed;
     settings.spp = 1;
     return settings;

@@ -996,15 +996,15 @@ static void put_header(
     put(w, root->link, 2);
     put(w, (uint16_t)m->radiance_exp, 2);
     put(w, 0, 2); /* exposure */
+    put(w, QL_DIRECT_AREA, 1);
+    put(w, QL_LIGHTS_POWER, 1);
     put(w, m->width, 2);
     put(w, m->height, 2);
     put(w, 0, 2); /* a grid unit is a scene unit */
-    put(w, 1, 4);
-    put(w, QL_DIRECT_AREA, 1);
-    put(w, QL_LIGHTS_POWER, 1);
     for (unsigned i = 0; i < 6; i++) {
         put(w, QL_TRIAL_NONE, 1);
     }
+    put(w, 1, 4);
     for (unsigned i = 0; i < 12; i++) {
         put(w, tables->core[i / 2][i % 2], 4);
     }

@@ -91,9 +91,9 @@ expected a depth of 32 or less, found 33" 's/^depth .*/depth 33/'
 range='an offset, index, count or value is out of range'
 makes a_header_out_of_range "byte 26: $range: expected -64 to 64, found 65" \
     's/^radiance_exp .*/radiance_exp 65/'
-makes a_strategy_that_is_none "byte 40: $range: expected 0 to 5, found 6" \
+makes a_strategy_that_is_none "byte 30: $range: expected 0 to 5, found 6" \
     's/^auto .*/auto 6 0/'
-makes a_choice_of_lights_that_is_none "byte 41: $range: expected 0 to 2, found \
+makes a_choice_of_lights_that_is_none "byte 31: $range: expected 0 to 2, found \
 3" 's/^auto .*/auto 1 3/'
 makes a_table_out_of_range "byte 96: $range: expected tables as BLOB.md has \
 them from here on" 's/^d .*/d 0x7fffffff 0x00000000 0x00000000/'

@@ -692,11 +692,12 @@ grep -q '^#define QL_CFG_TWO_SIDED 1$' in/w.h &&
     grep -q '^#define QL_CFG_BVH_STACK 4$' in/w.h
 say features_say_what_a_scene_needs $?
 
-# needs SCENE GATES: exactly these gates of the header are 1
+# needs SCENE GATES: exactly these gates of the header are 1, those apart that
+# are sets
 needs() {
     compile "$scenes/$1.scene" -o in/n.qlb --quiet --features in/n.h 2>err.txt
     [ "$(sed -n 's/^#define QL_CFG_\([A-Z_0-9]*\) 1$/\1/p' in/n.h |
-        tr '\n' ' ')" = "$2 " ]
+        grep -v 'DIRECT\|CHOICES' | tr '\n' ' ')" = "$2 " ]
     say ${1}_needs_its_features_and_no_more $?
 }
 needs cornell 'NODE16 LIGHTS CONTACT'
@@ -705,8 +706,17 @@ needs sky 'NODE16 LIGHTS PHONG SPHERES SKY SKY_MAP TABLES CONTACT'
 needs lens 'NODE16 LIGHTS SPHERES SKY LENS CONTACT'
 needs smooth 'NODE16 LIGHTS SMOOTH CONTACT'
 needs wild 'NODE16 LIGHTS TWO_SIDED SMOOTH MIRROR GLASS CONTACT ORDER'
-[ "$(grep -c '^#define QL_CFG_' in/n.h)" = 17 ]
+[ "$(grep -c '^#define QL_CFG_' in/n.h)" = 19 ]
 say every_gate_is_said $?
+# Mis, by all: 5 and 1, unless the command line asks for another gate.
+sed 's/^auto .*/auto 5 1/' in/c.txt >in/d.txt
+"$scene" in/d.txt -o in/n.qlb --quiet --features in/n.h
+printf '#include "n.h"\n%s\n' \
+    'QL_CFG_DIRECT QL_SCENE_DIRECT QL_CFG_LIGHT_CHOICES QL_SCENE_LIGHTS' >in/n.c
+[ "$(cc -E -P in/n.c)" = '32 5 2 1' ] &&
+    [ "$(cc -DQL_CFG_DIRECT=63 -E -P in/n.c)" = '63 5 2 1' ] &&
+    [ "$(cc -DQL_CFG_LIGHT_CHOICES=7 -E -P in/n.c)" = '32 5 7 1' ]
+say a_header_says_what_auto_is_and_builds_that $?
 compile "$scenes/sky.scene" -o in/n.qlb --quiet
 "$scene" --info in/n.qlb >in/info.txt
 [ "$(info triangles) $(info spheres) $(info phong-materials) $(info sky)" = \
@@ -754,16 +764,16 @@ while read -r s crc16 crc8; do
         [ "$("$scene" --info in/two.qlb | sed -n 's/^crc32: //p')" = "$crc8" ]
     say ${s}_is_the_same_blob_on_every_host $?
 done <<'END'
-cornell 1e2bb38a 6ded01bb
-furnace f4558ede bee5ef2f
-furnace08 c39c4b4c 7d243af5
-furnace099 b09225f7 2c6b90d0
-square a0665cf0 98b6f94e
-wild 854a9d02 a86ce85e
-glossy 6c59816b bdf5f184
-sky 4169874e b8d923db
-lens ee0653b0 9f593241
-smooth fae27ced 41199014
+cornell 5d2acdb5 efbd684e
+furnace 83a5f3cc f0144114
+furnace08 b46c365e 33d594ce
+furnace099 c76258e5 629a3eeb
+square 7af6f09d df6794bd
+wild 3f8e8d10 8cdfd371
+glossy 18f15195 fbee580c
+sky fa469782 4cb77068
+lens 154cbe8c 5a64217e
+smooth 6ea78aa9 70e49bc5
 END
 
 is_clean

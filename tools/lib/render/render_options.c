@@ -14,11 +14,12 @@
 
 /* Words in the order of the core's enums, as develop_formats are. */
 const char *const render_words_sampler[] = {"random", "sobol", NULL};
-const char *const render_words_direct[] = {
-        "none", "area", "hemisphere", "cosine", "solid-angle", "mis", NULL};
+const char *const render_words_direct[] = {"none", "area", "hemisphere",
+        "cosine", "solid-angle", "mis", "auto", NULL};
 const char *const render_words_indirect[] = {
         "none", "cosine", "uniform", "brdf", NULL};
-const char *const render_words_lights[] = {"power", "all", "uniform", NULL};
+const char *const render_words_lights[] = {
+        "power", "all", "uniform", "auto", NULL};
 const char *const render_words_curve[] = {"srgb", "filmic", "reinhard", NULL};
 
 static const char *const pictures[] = {".ppm", ".pfm", ".png", NULL};
@@ -46,7 +47,8 @@ const option_t render_options_settings[] = {
                 .words = render_words_sampler, .help = "points of a pixel"},
         {"--direct D", OPTION_WORD, AT(settings.direct),
                 .words = render_words_direct,
-                .help = "light straight from emitters"},
+                .help = "light straight from emitters; auto is what qlux-scene "
+                        "found best in the scene"},
         {"--indirect I", OPTION_WORD, AT(settings.indirect),
                 .words = render_words_indirect,
                 .help = "light from other surfaces, by directions"},
@@ -273,4 +275,10 @@ void render_options_rows(render_options_t *options, uint32_t height)
                 (unsigned)options->rows.first, (unsigned)options->rows.end,
                 (unsigned)height);
     }
+}
+
+void render_options_print(const ql_settings_t *settings)
+{
+    printf("direct: %s\n", render_words_direct[settings->direct]);
+    printf("lights: %s\n", render_words_lights[settings->lights]);
 }

@@ -65,4 +65,7 @@ void render_options_display(void);
 /* Resolve rows for a picture of some height, or options_fail(). */
 void render_options_rows(render_options_t *options, uint32_t height);
 
+/* Print how light is found, whatever auto was: lines of "key: value". */
+void render_options_print(const ql_settings_t *settings);
+
 #endif
