@@ -146,7 +146,7 @@ jobs_boards := $(foreach b,$(boards),boards/$b|tests/boards/test_boards.sh $b \
     || failed=1 && tests/bench/test_bench.sh $b $(then_$b) && \
     [ -z "$$failed" ];) \
     tools/trade|tests/tools/test_trade.sh; \
-    bench/cost|tests/bench/cost/test_cost.sh; \
+    tools/trade_cost|tests/bench/cost/test_cost.sh; \
     bench/pc|tests/bench/test_bench.sh pc; \
     boards/template|tests/boards/test_boards.sh template; \
     boards/stack|tests/tools/test_stack_report.sh;

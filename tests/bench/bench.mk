@@ -144,7 +144,8 @@ $O/cost-model: $O/host/tests/bench/cost/cost_main.o $(io) $(fine) $O/flags/link
 
 cost-table: ## Count and fit tools/lib/cost/cost_table.h: half an hour
 cost-table: $O/cost-model $O/qlux-scene
-	@MAKE='$(MAKE)' tests/bench/cost/count_cost.sh > $O/cost/rows
+	@mkdir -p $O/cost && MAKE='$(MAKE)' \
+	    tests/bench/cost/count_cost.sh > $O/cost/rows
 	@$O/cost-model fit < $O/cost/rows > $O/cost/table.h && \
 	    cp $O/cost/table.h tools/lib/cost/cost_table.h
 	@$(MAKE) --no-print-directory $O/cost-model
