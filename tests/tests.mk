@@ -120,6 +120,7 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/sky|tests/tools/scene/test_sky.sh; \
     tools/script|tests/tools/script/test_script.sh; \
     tools/bare|tests/tools/script/test_bare.sh; \
+    tools/sight|tests/tools/script/test_sight.sh; \
     tools/faces|tests/tools/faces/test_faces.sh; \
     tools/readers|tests/tools/foreign/test_readers.sh; \
     tools/lut|tests/tools/test_lut.sh; \

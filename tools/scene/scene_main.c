@@ -14,7 +14,7 @@
  *     bare    the .scene that an OBJ alone stands for
  *     blob    a model and its bytes, a model and its text
  *     choose  the way of finding light that a model asks for, by pilots
- *     report  what a model could not keep of a world
+ *     report  what a model could not keep of a world, what sees nothing in it
  *     build   a world on its grid to a model
  */
 

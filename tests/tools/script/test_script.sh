@@ -73,13 +73,14 @@ grep -q 'smooth has no effect' two.err && : >two.err
 same a_box_is_grey_without_a_material_and_never_smooth
 
 # ---- at, turn, scale ----
-# The same as awk makes it of the file: x, y, z to 3 z + 5, 2 x - 1, y.
-awk '$1 == "v" { print "v", 3 * $4 + 5, 2 * $2 - 1, $3; next } { print }' \
+# The same as awk makes it of the file: x, y, z to 3 z - 5, 2 x - 1, y.
+awk '$1 == "v" { print "v", 3 * $4 - 5, 2 * $2 - 1, $3; next } { print }' \
     a.obj >placed.obj
 blob one 'mesh placed.obj' 'sky 1 1 1'
-blob two 'mesh a.obj at 5 -1 0 scale 2 1 3 turn 90 0 90' 'sky 1 1 1'
+blob two 'mesh a.obj at -5 -1 0 scale 2 1 3 turn 90 0 90' 'sky 1 1 1'
 same a_mesh_is_scaled_turned_about_x_y_z_and_moved
-blob two 'mesh a.obj turn 90 -720 -630 scale 2 1 3 at 5 -1 0 # here' 'sky 1 1 1'
+blob two 'mesh a.obj turn 90 -720 -630 scale 2 1 3 at -5 -1 0 # here' \
+    'sky 1 1 1'
 blob one 'mesh placed.obj' 'sky 1 1 1'
 same turns_beyond_a_circle_and_the_order_of_words_change_nothing
 awk '$1 == "v" { print "v", -$2, $3, $4; next }

@@ -30,8 +30,8 @@ typedef enum {
 } kind_t;
 
 /* If a file is known as something else than what is wanted, say so in a line
- * that tells what to do, and exit 2; else return. Contents decide, then the end of
- * the name.
+ * that tells what to do, and exit 2; else return. Contents decide, then the end
+ * of the name.
  *
  *   path    -  of the file, for the message and for its name
  *   data    -  what it begins with

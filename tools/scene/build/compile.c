@@ -7,7 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blob/ql_blob_open.h"
 #include "lib/program/cli.h"
+#include "scene/blob/write_blob.h"
 #include "scene/build/add_table.h"
 #include "scene/build/build_camera.h"
 #include "scene/build/build_lights.h"
@@ -15,6 +17,8 @@
 #include "scene/build/build_sky.h"
 #include "scene/choose/choice.h"
 #include "scene/report/faint.h"
+#include "scene/report/lamp_fronts.h"
+#include "scene/report/sight.h"
 #include "scene/mesh/gain.h"
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
@@ -353,6 +357,21 @@ static void report_darkness(const model_t *model, const world_t *world)
     }
 }
 
+/* Say what cannot see anything, by rays of the core. */
+static void report_views(const model_t *model, const world_t *world,
+        const grid_t *grid, const bvh_t *bvh)
+{
+    size_t size;
+    uint8_t *blob = write_blob(model, &size);
+    ql_scene_t scene;
+
+    if (ql_blob_open(&scene, blob, size) == QL_OK) {
+        sight_report(&scene, world, grid, bvh);
+        lamp_fronts_report(&scene, world, grid);
+    }
+    free(blob);
+}
+
 static void report_joints(size_t count)
 {
     if (count > 0) {
@@ -382,6 +401,7 @@ void compile_scene(
     compile_model(model, world, &grid, &bvh, options->node_bits);
     report_darkness(model, world);
     faint_report(model, world, &grid, &bvh);
+    report_views(model, world, &grid, &bvh);
     bvh_free(&bvh);
     grid_free(&grid);
 }

@@ -94,6 +94,7 @@ static void turn_up(double p[3])
 
 void world_turn_up(world_t *world)
 {
+    world->is_up_z = true;
     for (size_t v = 0; v < world->vertex_count; v++) {
         turn_up(world->vertices[v]);
     }

@@ -97,6 +97,7 @@ typedef struct {
     size_t own_count; /* the first materials: those the .scene defines, which
                        * stand for all of their names */
     bool two_sided;   /* lights shine to both sides */
+    bool is_up_z;     /* its files said so; here y is up */
     bool quiet;       /* readers say nothing of what they leave out */
 } world_t;
 
