@@ -33,7 +33,8 @@ BOARD_MAIN ?= hal/ql_main.c
 # What the firmware is called, after the scene.
 board_tags := $(if $(filter 1,$(SMALL)),small)
 board_tags += $(if $(filter 0,$(board_indirect)),direct)
-board_rows := $(strip $(BOARD) $(scene) $(board_tags))
+board_rows := $(strip $(BOARD) $(scene) $(board_tags) $(filter-out \
+    auto,$(DIRECT)))
 board_called = $O/$(BOARD)/$(scene)$(subst $(space),,$(addprefix \
     -,$(board_tags) $1))$(VARIANT)
 board_name := $(call board_called,$(if $(filter 1,$(EMULATED)),emulated))

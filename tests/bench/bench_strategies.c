@@ -2,7 +2,7 @@
 /* SPDX-License-Identifier: MIT */
 
 /* As bench_main.c, but only whole paths, and SCENE any scene. The core has all
- * strategies only if it is built with QL_CFG_STRATEGIES 1. */
+ * strategies only if it is built with STRATEGIES=1. */
 
 #include "bench/bench_board.h"
 

@@ -141,7 +141,8 @@ board()
     if grep -q "^$board .* small " tests/budgets/sizes.txt; then
         rows size size BOARD="$board" SMALL=1
         rows size size BOARD="$board" SMALL=1 SCENE=square INDIRECT=none \
-            BOUNCES=0
+            BOUNCES=0 DIRECT=area LIGHTS=power
+        rows size size BOARD="$board" DIRECT=mis LIGHTS=power
     fi
     compare bench/size tests/budgets/sizes.txt "$dir/size" "$board"
     add_up "$dir/size"

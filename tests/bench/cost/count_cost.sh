@@ -34,7 +34,8 @@ count() {
     to=$build/cost/$1-$2-$3-$4
     [ -s "$to" ] && return
     "$make" -s --no-print-directory bench-board BOARD="$2" SCENE="${1%-*}" \
-        BLOB="$build/cost/$1" PRECISION="$3" EMULATED=1 STRATEGIES="$4" \
+        BLOB="$build/cost/$1" PRECISION="$3" EMULATED=1 DIRECT=area \
+        LIGHTS=power STRATEGIES="$4" \
         VARIANT="-cost-$1-$3-$4" CFLAGS_BOARD=-g0 \
         BOARD_MAIN='tests/bench/cost/bench_cost.c tests/bench/bench_board.c' \
         > "$to.tmp" && mv "$to.tmp" "$to"
