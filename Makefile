@@ -34,7 +34,7 @@ fine := $(core_src:%.c=$O/fine/%.o)
 draft := $(core_src:%.c=$O/draft/%.o)
 io := $O/host/lib.a
 
-names := scene lut merge diff sheet recv warp ref trade
+names := scene lut merge cost diff sheet recv warp ref trade
 programs := $(names:%=$O/qlux-%) $O/qlux-sim $O/qlux-sim-draft
 
 all: ## Build everything for this PC, render the Cornell box

@@ -109,12 +109,13 @@ $(eval $(call board_objects,$(board_hal),$(board_cc_hal)))
 $(eval $(call board_objects,$(board_own),$(board_cc_main)))
 $(call flags,$(subst /,-,$(board_own)).elf,$(board_ld) $(board_obj))
 
-firmware: $(board_name).hex $(board_name).bin ## Build BOARD's firmware
+firmware: $(board_name).hex $(board_name).bin $O/qlux-cost ## Build firmware
 	$(if $(silent),,@$(board_report))
 
 # What it takes, and how long, if make run has counted the instructions.
 board_report = tools/dev/firmware_report.sh $(board_name) $(BOARD) \
-    $(BOARD_CROSS)size $(board_count)
+    $(BOARD_CROSS)size $(board_count) $(if $(ERROR),,$O/qlux-cost \
+    $(BLOB).qlb $(cost_options) --precision $(PRECISION))
 
 $(board_name)/%.S.o: %.S $(call board_flags,$(board_own)) $(BLOB).qlb
 	$(call step,AS,$<)mkdir -p $(@D) && $(BOARD_CROSS)gcc $(BOARD_CPU) -c $< \

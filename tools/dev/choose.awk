@@ -9,9 +9,10 @@
 # "level N". The environment is looked at too.
 #
 # Prints assignments for make, words without blanks: every variable; sim_options
-# of the picture; with a BOARD, what its compiler defines. Or "error" and one
-# line that says what is wrong. Which settings of a board's picture have no
-# effect goes to stderr; qlux-sim says it of a picture here.
+# of the picture, and cost_options, those on which its cost depends; with a
+# BOARD, what its compiler defines. Or "error" and one line that says what is
+# wrong. Which settings of a board's picture have no effect goes to stderr;
+# qlux-sim says it of a picture here.
 
 function fail(text)
 {
@@ -293,16 +294,25 @@ function print_gates(    settings, key, k, need, formats, gates, n_gates)
     define("QL_CFG_FORMATS", formats)
 }
 
+# qlux-cost has no display.
+function print_option(key, word)
+{
+    print "sim_options+=" word
+    if (key != "EXPOSURE" && key != "CURVE" && key != "ERROR")
+        print "cost_options+=" word
+}
+
 # What auto is, the scene's header says.
 function print_choice(key)
 {
     if (of[key] == "any" || of[key] == "scene" || !(key in value))
         return
     print key "=" value[key]
-    if (option[key] != "-" && of[key] != "0..1")
-        print "sim_options+=" option[key] " sim_options+=" value[key]
-    else if (option[key] != "-" && value[key])
-        print "sim_options+=" option[key]
+    if (option[key] != "-" && of[key] != "0..1") {
+        print_option(key, option[key])
+        print_option(key, value[key])
+    } else if (option[key] != "-" && value[key])
+        print_option(key, option[key])
     if (c_name[key] == "-" || !("BOARD" in value))
         return
     if (of[key] == "size") {

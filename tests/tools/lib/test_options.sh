@@ -62,6 +62,7 @@ qlux-lut|-|-o a b
 qlux-sim|--spp 0|a b
 qlux-sim-draft|--direct x|a b
 qlux-merge|--format x|-
+qlux-cost|--precision x|a b
 qlux-diff|--max-bias x|a b c
 qlux-sheet|--zoom 17|-
 qlux-recv|--baud 1.5|a b
