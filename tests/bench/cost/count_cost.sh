@@ -6,8 +6,8 @@
 #
 # Each scene with the tree that qlux-scene builds, and some with leaves of 1 and
 # of 12 triangles, where boxes and triangles are tested in other numbers; each
-# in two firmwares, without strategies and with all of them. A way that both can
-# is counted in the first, as boards have it. What was counted stays in
+# in two firmwares, of area by power alone and with all strategies. A way that
+# both can is counted in the first, as boards have it. What was counted stays in
 # build/cost.
 #
 # Example: make cost-table
