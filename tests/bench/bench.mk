@@ -133,6 +133,10 @@ bench-pc: $O/bench-pc $O/bench-pc-draft $O/$(scene).qlb $O/mesh.qlb
 strategies: ## Noise and cost of each direct strategy, as a table and a picture
 	@MAKE='$(MAKE)' tools/sheet/strategies.sh $(STRATEGY_OPTIONS)
 
+choices: ## How good what `auto` stands for is, in every scene
+choices: $O/qlux-scene $O/test/fine/tools/choose/choice_main
+	@tests/tools/choose/choices.sh
+
 shrink: ## Variance of each strategy as a light shrinks: build/shrink.svg
 shrink: $O/qlux-scene $O/qlux-sim
 	@tools/sheet/shrink.sh
