@@ -6,10 +6,10 @@
  * Renders pictures of a blob in each way of finding light, of SIZE pixels each
  * way and 64 samples, what a PC takes unless told, with seeds that no pilot
  * has, and prints a line a way: its relMSE, from how pictures of different
- * seeds differ; its instructions a sample on a Cortex-M3; their product over the
- * least one. The last line is that of the way that auto stands for. Sums are in
- * double: nothing of this is shared with qlux-scene but the core and the table
- * of instructions. */
+ * seeds differ; its instructions a sample on a Cortex-M3; their product over
+ * the least one. The last line is that of the way that auto stands for. Sums
+ * are in double: nothing of this is shared with qlux-scene but the core and
+ * the table of instructions. */
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -40,7 +40,8 @@ grep -x 'auto: solid-angle power' out.txt >found.txt &&
     grep '^trial-area-power: ' out.txt | awk '{ exit !($2 > 1.3 && $2 < 9) }'
 say what_was_tried_is_told $?
 "$scene" "$scenes/square.scene" -o square.qlb >out.txt
-sed -n 's/^auto is \(.*\) (work for the same error: .*)$/\1/p' out.txt >found.txt
+sed -n "s/^auto is \(.*\) (work for the same error: .*)$/\1/p" out.txt \
+    >found.txt
 [ "$(cat found.txt)" = 'solid-angle by all' ]
 say so_it_is_when_a_scene_is_compiled $? "$(cat found.txt)"
 
@@ -78,8 +79,8 @@ sources="tests/tools/choose/choose_main.c firmware/qlux.c"
 for part in scene/choose/choice scene/choose/choose scene/choose/pilot \
     scene/choose/sky_share scene/blob/blob_schema scene/blob/model \
     scene/blob/read_blob scene/blob/write_blob lib/cost/cost_count \
-    lib/cost/cost_sum lib/math/soft lib/math/build_cdf lib/program/alloc \
-    lib/program/cli lib/render/open_blob; do
+    lib/cost/cost_sum lib/math/soft lib/math/build_cdf lib/files/kind \
+    lib/program/alloc lib/program/cli lib/render/open_blob; do
     sources="$sources tools/$part.c"
 done
 narrow=
