@@ -209,8 +209,8 @@ LIGHT_SAMPLES=256|use a number from 1 to 255
 TABLE_BITS=11|use a number from 5 to 10
 TABLE_LERP=2|use 0 or 1
 ROULETTE=yes|use 0 or 1
-SCENE=missing|use the path of a .scene or .obj file, or cornell, dents
-SCENE=no/such.scene|use the path of a .scene or .obj file, or cornell, dents
+SCENE=missing|use the path of a .scene or .obj file, or bulb, ceiling
+SCENE=no/such.scene|use the path of a .scene or .obj file, or bulb, ceiling
 BOARD=x firmware|use lm3s6965evb, microbit, mps2-an386 or sifive_e
 BOARD=microbit SMALL=2 firmware|SMALL=2: use 0 or 1
 BOARD=microbit INTERLACE=3 firmware|use a power of two from 1 to 16384
