@@ -177,6 +177,18 @@
 #define QL_CFG_CURVES 3
 #endif
 
+/* QL_CFG_METER: 0 or 1. Meter the exposure before the picture: meter of
+ * ql_settings_t, which does not exist without. 1,360 bytes, and 512 paths. */
+#ifndef QL_CFG_METER
+#define QL_CFG_METER 1
+#endif
+
+/* QL_CFG_CLAMP: 0 or 1. Cut bright contributions: clamp_q16 of ql_settings_t,
+ * which does not exist without. 660 bytes. */
+#ifndef QL_CFG_CLAMP
+#define QL_CFG_CLAMP 1
+#endif
+
 /* QL_CFG_SMALL: 0 or 1. Short code where fast and short code differ; results
  * are the same bits. Saves 4,500 bytes of 15,800, and a path costs 2.3 times
  * the instructions on a Cortex-M0: products, real numbers, hashes, the
@@ -253,6 +265,9 @@
 #if QL_CFG_CURVES < 0 || QL_CFG_CURVES > 3
 #error "QL_CFG_CURVES: use 0, 1 (filmic), 2 (Reinhard) or 3 (both)"
 #endif
+#if (QL_CFG_METER | QL_CFG_CLAMP) & ~1
+#error "QL_CFG_METER, QL_CFG_CLAMP: use 0 or 1 for each"
+#endif
 #if QL_CFG_DIAG != 0 && QL_CFG_DIAG != 1
 #error "QL_CFG_DIAG: use 0 or 1"
 #endif
@@ -314,8 +329,8 @@
     QL_JOIN(_adaptive, QL_CFG_ADAPTIVE, QL_CFG_INDIRECT, QL_CFG_SAMPLERS,      \
             QL_CFG_FORMATS, QL_CFG_PANEL, , , )
 #define QL_GATES_8                                                             \
-    QL_JOIN(_curves, QL_CFG_CURVES, QL_CFG_SMALL, QL_CFG_DIAG,                 \
-            QL_CFG_BVH_STACK, QL_CFG_ASSERT, , , )
+    QL_JOIN(_curves, QL_CFG_CURVES, QL_CFG_METER, QL_CFG_CLAMP, QL_CFG_SMALL,  \
+            QL_CFG_DIAG, QL_CFG_BVH_STACK, QL_CFG_ASSERT, )
 #define QL_JOIN(a, b, c, d, e, f, g, h, i)  QL_JOIN_(a, b, c, d, e, f, g, h, i)
 #define QL_JOIN_(a, b, c, d, e, f, g, h, i) a##b##c##d##e##f##g##h##i
 

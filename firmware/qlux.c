@@ -67,8 +67,10 @@
 #include "light/sky/ql_sky_map.c"
 
 #include "film/ql_adaptive.c"
+#include "film/ql_clamp.c"
 #include "film/ql_curve.c"
 #include "film/ql_film.c"
+#include "film/ql_meter.c"
 #include "film/ql_tonemap.c"
 
 #include "render/ql_emitted.c"

@@ -11,8 +11,9 @@
  * ql_light_choice_t. QL_APP_LIGHT_SAMPLES: of each emitter, or directions.
  * QL_APP_ROULETTE: 0 or 1. QL_APP_ERROR: relative error of a pixel, a part of
  * 1, 0 for all samples. QL_APP_EXPOSURE: stops brighter than the scene's
- * exposure. QL_APP_CURVE: ql_curve_t. QL_APP_INTERLACE: px between lines of the
- * first pass, a power of two. */
+ * exposure, with QL_APP_METER 1 than the metered one. QL_APP_CURVE: ql_curve_t.
+ * QL_APP_CLAMP: radiance in the units of Ke, 0 for no limit. QL_APP_INTERLACE:
+ * px between lines of the first pass, a power of two. */
 #ifndef QL_APP_WIDTH
 #define QL_APP_WIDTH 64
 #endif
@@ -52,6 +53,12 @@
 #ifndef QL_APP_EXPOSURE
 #define QL_APP_EXPOSURE 0
 #endif
+#ifndef QL_APP_METER
+#define QL_APP_METER 0
+#endif
+#ifndef QL_APP_CLAMP
+#define QL_APP_CLAMP 0
+#endif
 #ifndef QL_APP_CURVE
 #define QL_APP_CURVE QL_CURVE_SRGB
 #endif
@@ -64,6 +71,13 @@ QL_STATIC_ASSERT(
         QL_PORT_PANEL_WIDTH == 0 ||
                 (QL_CFG_PANEL && (QL_CFG_FORMATS >> QL_PORT_PANEL_FORMAT & 1)),
         ql_build_has_the_panels_format);
+
+/* What a build may lack. */
+#define OPTIONAL_SETTINGS                                                      \
+    QL_IF_BUILT(QL_CFG_ADAPTIVE, .error_q16 = QL_ERROR_Q16(QL_APP_ERROR), )    \
+    QL_IF_BUILT(QL_ROLL_OFF, .curve = QL_APP_CURVE, )                          \
+    QL_IF_BUILT(QL_CFG_METER, .meter = QL_APP_METER, )                         \
+    QL_IF_BUILT(QL_CFG_CLAMP, .clamp_q16 = QL_CLAMP_Q16(QL_APP_CLAMP))
 
 int main(void)
 {
@@ -82,9 +96,7 @@ int main(void)
                     .light_samples = QL_APP_LIGHT_SAMPLES,
                     .roulette = QL_APP_ROULETTE,
                     .exposure_q8 = QL_EXPOSURE_Q8(QL_APP_EXPOSURE),
-                    QL_IF_BUILT(QL_CFG_ADAPTIVE,
-                            .error_q16 = QL_ERROR_Q16(QL_APP_ERROR), )
-                            QL_IF_BUILT(QL_ROLL_OFF, .curve = QL_APP_CURVE)},
+                    OPTIONAL_SETTINGS},
             .interlace = QL_APP_INTERLACE,
             .work = work,
             .work_bytes = sizeof work,

@@ -239,6 +239,7 @@ void sim_files_resume(sums_t *sums, const char *path, const sums_range_t *whole)
         cli_fail(CLI_INPUT, "%s: byte %" PRIu64 ": %s", path, where, error);
     }
     check_settings(path, &file.head, sums);
+    sums_add_pixels(&sums->cut, &file.head.cut, 1);
     for (uint32_t i = 0; i < file.head.ranges.count; i++) {
         check_range(path, file.head.ranges.items + i, whole);
         ranges_add(&sums->ranges, file.head.ranges.items + i);

@@ -40,6 +40,14 @@ static const program_t program = {.name = PROGRAM,
         .example =
                 PROGRAM " cornell.qlb -o cornell.png --size 256x256 --spp 64"};
 
+/* The exposure that --exposure auto has, whatever this run asks for. */
+static int16_t metered(const ql_render_t *render)
+{
+    ql_render_t copy = *render;
+
+    return ql_render_meter(&copy);
+}
+
 /* What parts must have in common with this one. */
 static void describe(sums_t *sums, const ql_render_t *render)
 {
@@ -66,6 +74,10 @@ static void describe(sums_t *sums, const ql_render_t *render)
     f[SUMS_ROULETTE] = s->roulette;
     f[SUMS_TABLE_BITS] = QL_CFG_TABLE_BITS;
     f[SUMS_TABLE_LERP] = QL_CFG_TABLE_LERP;
+    f[SUMS_METERED_Q8] = (uint32_t)(int32_t)metered(render);
+#if QL_CFG_CLAMP
+    f[SUMS_CLAMP_Q16] = s->clamp_q16;
+#endif
 }
 
 static void print_stats(const sim_stats_t *s, const ql_settings_t *settings)
@@ -76,6 +88,33 @@ static void print_stats(const sim_stats_t *s, const ql_settings_t *settings)
     printf("seconds: %.3f\n", s->seconds);
     printf("precision: " PRECISION "\n");
     render_options_print(settings);
+}
+
+/* A sum of all pixels and channels. */
+static double total(const sums_t *sums)
+{
+    double sum = 0;
+
+    for (uint32_t y = sums->row_first; y < sums->row_end; y++) {
+        for (uint32_t i = 0; i < 3 * sums->field[SUMS_WIDTH]; i++) {
+            sum += (double)sums_pixels(sums, y)[i / 3].rgb[i % 3];
+        }
+    }
+    return sum;
+}
+
+/* What was metered; what was cut off, a part of the mean without a cut. */
+static void print_film(const render_options_t *o, const sums_t *sums)
+{
+    const uint64_t *rgb = sums->cut.rgb;
+    const double cut = (double)rgb[0] + (double)rgb[1] + (double)rgb[2];
+
+    if (o->settings.meter) {
+        printf("exposure: %.8g\n", o->settings.exposure_q8 / 256.0);
+    }
+    if (sums->field[SUMS_CLAMP_Q16] != 0) {
+        printf("clamp-bias: %.6g\n", cut > 0 ? -cut / (total(sums) + cut) : 0);
+    }
 }
 
 /* Everything after the options. A second signal ends the program at once. */
@@ -114,6 +153,7 @@ static void run(render_options_t *o, const ql_render_t *render)
     }
     if (o->stats) {
         print_stats(&stats, &render->settings);
+        print_film(o, &sums);
         if (sums.counts != NULL) {
             printf("samples-per-pixel: %.3f\n", sim_files_mean_count(&sums));
         }
@@ -135,6 +175,7 @@ int main(int argc, char **argv)
     }
     blob = open_blob(&scene, options.scene);
     status = ql_render_init(&render, &scene, &options.settings);
+    options.settings.exposure_q8 = render.settings.exposure_q8;
     if (status != QL_OK) {
         options_fail("%s", ql_status_text(status));
     }

@@ -12,6 +12,7 @@
 typedef struct {
     sums_t *sums;
     bool *finished; /* of each row of the picture, in this pass */
+    ql_sum_t *cut;  /* off each of them */
     sim_stats_t stats;
 } job_t;
 
@@ -46,6 +47,19 @@ static void draw_adaptive(void *shared, void *own, uint16_t x, uint16_t y,
 }
 #endif
 
+/* What was cut off a row. */
+static void take_cut(job_t *job, own_t *thread, uint16_t y)
+{
+#if QL_CFG_CLAMP
+    memcpy(job->cut[y].rgb, thread->render.clamp.cut, sizeof job->cut[y].rgb);
+    memset(thread->render.clamp.cut, 0, sizeof thread->render.clamp.cut);
+#else
+    (void)job;
+    (void)thread;
+    (void)y;
+#endif
+}
+
 static void finish(void *shared, void *own, uint16_t y)
 {
     job_t *job = shared;
@@ -54,6 +68,7 @@ static void finish(void *shared, void *own, uint16_t y)
 
     sums_add_pixels(sums_pixels(job->sums, y), thread->row, width);
     memset(thread->row, 0, width * sizeof *thread->row);
+    take_cut(job, thread, y);
     job->finished[y] = true;
 }
 
@@ -79,6 +94,7 @@ static void take_finished(job_t *job, const sums_range_t *range)
     while (y < range->row_end) {
         rows.row_first = y;
         while (y < range->row_end && job->finished[y]) {
+            sums_add_pixels(&job->sums->cut, job->cut + y, 1);
             job->finished[y++] = false;
         }
         rows.row_end = y;
@@ -146,7 +162,8 @@ bool sim_render(sums_t *sums, const ql_render_t *render,
     const size_t own_bytes = sizeof(own_t) + width * sizeof(ql_sum_t);
     own_t *own = cli_alloc(1, own_bytes);
     job_t job = {.sums = sums,
-            .finished = cli_alloc(render->settings.height, sizeof(bool))};
+            .finished = cli_alloc(render->settings.height, sizeof(bool)),
+            .cut = cli_alloc(render->settings.height, sizeof(ql_sum_t))};
     rows_t rows = {.label = "rendering",
             .width = width,
             .step = ROWS_STEP,
@@ -177,6 +194,7 @@ bool sim_render(sums_t *sums, const ql_render_t *render,
     stats->seconds = cli_seconds() - begun;
     ranges_free(&missing);
     free(job.finished);
+    free(job.cut);
     free(own);
     return done;
 }

@@ -67,6 +67,11 @@ typedef struct {
      * takes all its samples */
     QL_IF_BUILT(QL_CFG_ADAPTIVE, uint16_t error_q16;)
     QL_IF_BUILT(QL_ROLL_OFF, uint8_t curve;) /* ql_curve_t */
+    /* not 0: exposure_q8 is beside the metered exposure, not the scene's */
+    QL_IF_BUILT(QL_CFG_METER, uint8_t meter;)
+    /* u16.16: light of a contribution above this radiance, in the units of Ke,
+     * is cut off; 0: nothing is */
+    QL_IF_BUILT(QL_CFG_CLAMP, uint32_t clamp_q16;)
 } ql_settings_t;
 
 /* Which gate of ql_config.h a setting needs: a build without GATE refuses a
@@ -74,7 +79,8 @@ typedef struct {
  * tools/dev/gates.awk reads the same rows for make and for make trade. Of a SET
  * the gate has a bit for each value of MEMBER. Beside them, QL_CFG_CURVES has a
  * bit for each ql_curve_t but SRGB; curve does not exist without any, nor
- * error_q16 without QL_CFG_ADAPTIVE.
+ * error_q16, meter and clamp_q16 without QL_CFG_ADAPTIVE, QL_CFG_METER and
+ * QL_CFG_CLAMP.
  *
  *   SET(GATE, MEMBER)
  *   NEED(GATE, MEMBER, FIRST, LAST)
@@ -115,6 +121,10 @@ typedef struct {
 #define QL_EXPOSURE_Q8(stops)                                                  \
     ((int16_t)((stops)*256 + ((stops) < 0 ? -0.5 : 0.5)))
 
+/* clamp_q16 of a radiance, likewise.
+ *   radiance  -  0, or from 0.0001 to 65535 */
+#define QL_CLAMP_Q16(radiance) ((uint32_t)((radiance)*65536.0 + 0.5))
+
 /* Is a setting that was checked this one? Known to the compiler where the build
  * has no other.
  *
@@ -141,13 +151,17 @@ QL_STATIC_ASSERT(1 << QL_DIRECT_MIS == 32 && 1 << QL_DIRECT_SOLID_ANGLE == 16 &&
 /* The scene's size, 16 samples, seed 0, Sobol points and 4 bounces, or what
  * there is of them in the build, direct light as the blob says, the BRDF, sRGB;
  * in the order of the struct, as C++ wants it. */
+#define QL_SETTINGS_OPTIONAL                                                   \
+    QL_IF_BUILT(QL_CFG_ADAPTIVE, 0, )                                          \
+    QL_IF_BUILT(QL_ROLL_OFF, QL_CURVE_SRGB, )                                  \
+    QL_IF_BUILT(QL_CFG_METER, 0, )                                             \
+    QL_IF_BUILT(QL_CFG_CLAMP, 0)
 #define QL_SETTINGS_DEFAULT                                                    \
     {                                                                          \
         0, 0, 16, 0, QL_CFG_INDIRECT ? 4 : 0,                                  \
                 QL_CFG_SAMPLERS & 2 ? QL_SAMPLER_SOBOL : QL_SAMPLER_RANDOM,    \
                 QL_DIRECT_AUTO, QL_INDIRECT_BRDF, QL_LIGHTS_AUTO, 1, 0, 0,     \
-                QL_IF_BUILT(QL_CFG_ADAPTIVE, 0, )                              \
-                        QL_IF_BUILT(QL_ROLL_OFF, QL_CURVE_SRGB)                \
+                QL_SETTINGS_OPTIONAL                                           \
     }
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/ql_diag.h"
 #include "base/ql_settings.h"
+#include "film/ql_clamp.h"
 #include "film/ql_film.h"
 #include "material/ql_bsdf.h"
 #include "math/vec/ql_rgb.h"
@@ -22,7 +23,42 @@ typedef struct {
     const ql_sampler_t *sampler; /* started for this sample */
     ql_sum_t *sum;               /* of the pixel */
     ql_diag_t *diag;
+    QL_IF_BUILT(QL_CFG_CLAMP, ql_clamp_t *clamp;) /* NULL: nothing is cut */
 } ql_context_t;
+
+#if QL_CFG_CLAMP
+QL_INLINE ql_clamp_t *ql_context_clamp(const ql_context_t *context)
+{
+    return context->clamp;
+}
+
+/* The context of a path's first ray: what the camera sees itself is not cut.
+ *
+ *   copy    -  room for it
+ *   return  context, or copy if this is ray 0
+ */
+QL_INLINE const ql_context_t *ql_context_of_ray(
+        const ql_context_t *context, unsigned ray, ql_context_t *copy)
+{
+    if (ray > 0) {
+        return context;
+    }
+    *copy = *context;
+    copy->clamp = NULL;
+    return copy;
+}
+#else
+QL_INLINE ql_clamp_t *ql_context_clamp(const ql_context_t *context)
+{
+    return (void)context, NULL;
+}
+
+QL_INLINE const ql_context_t *ql_context_of_ray(
+        const ql_context_t *context, unsigned ray, ql_context_t *copy)
+{
+    return (void)ray, (void)copy, context;
+}
+#endif
 
 /* A ray of a path. */
 typedef struct {

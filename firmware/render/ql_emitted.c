@@ -16,8 +16,8 @@ void ql_emitted_add(const ql_context_t *context, const ql_rgb_t *throughput,
     for (unsigned i = 0; i < 3; i++) {
         value[i] = ql_mulhi_u32_rounded(throughput->c[i], emission[i]);
     }
-    ql_film_add(context->sum, value, scale, ql_sampler_key(context->sampler),
-            context->diag);
+    ql_clamp_add(context->sum, ql_context_clamp(context), value, scale,
+            ql_sampler_key(context->sampler), context->diag);
 }
 
 /* The part that a ray counts of the emitter that it met; as

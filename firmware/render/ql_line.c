@@ -5,6 +5,7 @@
 
 #include "film/ql_adaptive.h"
 #include "film/ql_curve.h"
+#include "film/ql_meter.h"
 #include "render/ql_path.h"
 #include "scene/ql_auto.h"
 
@@ -40,6 +41,43 @@ static bool settings_in_range(const ql_settings_t *s)
            !lacks_a_gate(s);
 }
 
+static int16_t radiance_exp_of(const ql_scene_t *scene)
+{
+    return ql_i16(QL_LE16((uint16_t)scene->header->radiance_exp));
+}
+
+static int16_t scene_exposure_q8(const ql_scene_t *scene)
+{
+    return ql_i16(QL_LE16((uint16_t)scene->header->exposure_q8));
+}
+
+#if QL_CFG_CLAMP
+static void begin_clamp(ql_render_t *render)
+{
+    ql_clamp_begin(&render->clamp, render->settings.clamp_q16,
+            radiance_exp_of(render->scene));
+}
+#else
+static void begin_clamp(ql_render_t *render)
+{
+    (void)render;
+}
+#endif
+
+/* Nothing is counted yet. */
+static void begin_counts(ql_render_t *render)
+{
+    render->diag = (ql_diag_t){0};
+    begin_clamp(render);
+}
+
+static int16_t within_64_stops(int32_t stops_q8)
+{
+    return (int16_t)(stops_q8 < -64 * 256  ? -64 * 256
+                     : stops_q8 > 64 * 256 ? 64 * 256
+                                           : stops_q8);
+}
+
 ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
         const ql_settings_t *settings)
 {
@@ -53,11 +91,14 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
     }
     render->scene = scene;
     render->settings = s;
-    render->diag = (ql_diag_t){0};
-    render->exposure = ql_film_exposure(
-            ql_i16(QL_LE16((uint16_t)scene->header->radiance_exp)),
-            (int32_t)ql_i16(QL_LE16((uint16_t)scene->header->exposure_q8)) +
-                    s.exposure_q8);
+    begin_counts(render);
+    if (ql_meter_wanted(&s)) {
+        s.exposure_q8 = within_64_stops(
+                (int32_t)ql_render_meter(render) + s.exposure_q8);
+        render->settings.exposure_q8 = s.exposure_q8;
+    }
+    render->exposure = ql_film_exposure(radiance_exp_of(scene),
+            (int32_t)scene_exposure_q8(scene) + s.exposure_q8);
     return QL_OK;
 }
 
@@ -65,13 +106,12 @@ ql_status_t ql_render_init(ql_render_t *render, const ql_scene_t *scene,
 static void add_samples(ql_render_t *render, const ql_camera_pixel_t *pixel,
         ql_sampler_t *sampler, uint32_t first, uint32_t count, ql_sum_t *sum)
 {
-    const ql_context_t context = {
-            .scene = render->scene,
+    const ql_context_t context = {.scene = render->scene,
             .settings = &render->settings,
             .sampler = sampler,
             .sum = sum,
             .diag = &render->diag,
-    };
+            QL_IF_BUILT(QL_CFG_CLAMP, .clamp = &render->clamp)};
 
     QL_ASSERT(first <= QL_SPP_MAX && count <= QL_SPP_MAX - first);
     for (uint32_t i = 0; i < count; i++) {
@@ -109,6 +149,39 @@ void ql_render_pixel(ql_render_t *render, uint16_t x, uint16_t y,
     ql_sampler_begin(&sampler, s->sampler, s->seed, x, y);
     add_samples(render, &pixel, &sampler, first, count, sum);
 }
+
+#if QL_CFG_METER
+int16_t ql_render_meter(ql_render_t *render)
+{
+    static const ql_meter_t nothing;
+    static const ql_sum_t black;
+    const uint32_t width = render->settings.width;
+    const uint32_t height = render->settings.height;
+    ql_meter_t meter = nothing;
+
+    for (uint32_t cell = 0; cell < QL_METER_SIDE * QL_METER_SIDE; cell++) {
+        ql_sum_t sum = black;
+
+        for (uint32_t k = 0; k < 4; k++) {
+            /* the middle of a field of 2 by 2 in the cell */
+            const uint32_t x = 4 * (cell % QL_METER_SIDE) + 2 * (k % 2) + 1;
+            const uint32_t y = 4 * (cell / QL_METER_SIDE) + 2 * (k / 2) + 1;
+
+            ql_render_pixel(render, (uint16_t)(x * width / (4 * QL_METER_SIDE)),
+                    (uint16_t)(y * height / (4 * QL_METER_SIDE)), 0,
+                    QL_METER_SAMPLES, &sum);
+        }
+        ql_meter_add(&meter, &sum);
+    }
+    begin_counts(render);
+    if (meter.count == 0) {
+        return 0;
+    }
+    return within_64_stops((int32_t)ql_meter_stops(&meter) -
+                           256 * (int32_t)radiance_exp_of(render->scene) -
+                           scene_exposure_q8(render->scene));
+}
+#endif
 
 #if QL_CFG_ADAPTIVE
 /* Add samples to a half of a pixel until it has count, each for itself. */

@@ -4,6 +4,7 @@
 #ifndef QL_LINE_H
 #define QL_LINE_H
 
+#include "film/ql_clamp.h"
 #include "film/ql_film.h"
 #include "film/ql_tonemap.h"
 #include "scene/ql_camera.h"
@@ -13,6 +14,7 @@ QL_C_BEGIN
 
 /* They link with a core of the same gates only (ql_config.h). */
 #define ql_render_init     QL_GATED(ql_render_init)
+#define ql_render_meter    QL_GATED(ql_render_meter)
 #define ql_render_pixel    QL_GATED(ql_render_pixel)
 #define ql_render_adaptive QL_GATED(ql_render_adaptive)
 #define ql_render_encode   QL_GATED(ql_render_encode)
@@ -25,6 +27,7 @@ typedef struct {
     ql_camera_t camera;
     ql_real_t exposure; /* display value of one radiance unit */
     ql_diag_t diag;     /* counters; zeroed by ql_render_init() */
+    QL_IF_BUILT(QL_CFG_CLAMP, ql_clamp_t clamp;) /* likewise what it cut */
 } ql_render_t;
 
 /* One encoding of a scanline that ql_render_line() writes. */
@@ -37,12 +40,31 @@ typedef struct {
  *
  *   render    -  out: all zero if this fails
  *   scene     -  from ql_blob_open(); must outlive render
- *   settings  -  copied; what they leave to the scene is filled in (ql_auto.h)
+ *   settings  -  copied; what they leave to the scene is filled in (ql_auto.h).
+ *                With meter exposure_q8 becomes what was metered and what it
+ *                was
  *   return    QL_OK, or QL_ERR_SETTINGS: a field outside its range, or one
  *             that needs a part this build lacks (ql_config.h)
  */
 QL_MUST_CHECK ql_status_t ql_render_init(ql_render_t *render,
         const ql_scene_t *scene, const ql_settings_t *settings);
+
+/* Meter the exposure: by two samples of four pixels in each of 64 cells.
+ *
+ *   render  -     from ql_render_init(); its counters begin again
+ *   return  s7.8  stops brighter than the scene's exposure, within 64
+ *
+ * A function of blob and settings, spp and exposure left out: parts of a
+ * picture, and those with more samples, have the same. Cost: 512 paths.
+ */
+#if QL_CFG_METER
+int16_t ql_render_meter(ql_render_t *render);
+#else
+QL_INLINE int16_t ql_render_meter(ql_render_t *render)
+{
+    return (void)render, 0;
+}
+#endif
 
 /* Add samples of one pixel to its sums.
  *

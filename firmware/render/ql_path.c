@@ -190,6 +190,7 @@ void ql_path_trace(const ql_context_t *context, const ql_ray_t *camera_ray)
 {
     const ql_settings_t *settings = context->settings;
     bool specular = true; /* at every vertex so far */
+    ql_context_t first;
     ql_path_ray_t ray;
     ql_vertex_t vertex;
     ql_hit_t hit;
@@ -201,7 +202,8 @@ void ql_path_trace(const ql_context_t *context, const ql_ray_t *camera_ray)
         ql_plan_t plan;
 
         /* Find what the ray meets, and add the light that it counts. */
-        if (!trace_ray(context, &ray, &hit) ||
+        if (!trace_ray(
+                    ql_context_of_ray(context, bounce, &first), &ray, &hit) ||
                 !begin_vertex(context, &ray, &hit, bounce, &vertex)) {
             return;
         }
@@ -238,9 +240,10 @@ void ql_path_trace(const ql_context_t *context, const ql_ray_t *camera_ray)
 #if QL_CFG_SKY
 void ql_path_miss(const ql_context_t *context, const ql_ray_t *camera_ray)
 {
+    ql_context_t first;
     ql_path_ray_t ray;
 
     begin_path(&ray, camera_ray);
-    ql_emitted_by_sky(context, &ray);
+    ql_emitted_by_sky(ql_context_of_ray(context, 0, &first), &ray);
 }
 #endif

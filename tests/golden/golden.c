@@ -430,6 +430,30 @@ static void add_pictures(const ql_scene_t scenes[2])
     }
 }
 
+/* As nothing before has it: metered, cut, by a curve. */
+static void add_film(const ql_scene_t *scene)
+{
+#if QL_CFG_METER && QL_CFG_CLAMP && QL_CFG_CURVES & 1
+    ql_settings_t settings = QL_SETTINGS_DEFAULT;
+
+    settings.width = settings.height = SIZE;
+    settings.spp = 2;
+    settings.sampler = QL_SAMPLER_SOBOL;
+    settings.bounces = 2;
+    settings.direct = QL_DIRECT_AREA;
+    settings.lights = QL_LIGHTS_POWER;
+    settings.meter = 1;
+    settings.clamp_q16 = QL_CLAMP_Q16(0.5);
+    settings.curve = QL_CURVE_FILMIC;
+    add_lines(scene, "cornell_film", settings);
+    settings.width = 17;
+    settings.height = 11;
+    add_sums(scene, "cornell_film", settings);
+#else
+    (void)scene;
+#endif
+}
+
 /* Every estimator, all else as above. Corners of a room, which show one feature
  * each, take the first four; a build without paths or strategies has two. */
 static void add_strategies(const ql_scene_t *scene, const char *name)
@@ -678,6 +702,7 @@ int main(int argc, char **argv)
     add_tonemap();
     add_curves();
     add_pictures(scenes);
+    add_film(scenes);
     add_strategies(scenes, "cornell");
     for (int i = 5; i < argc; i++) {
         add_strategies(scenes + i - 3, name_of(argv[i]));

@@ -147,9 +147,10 @@ gates() {
     done
 }
 {
-    gates 'CURVE=filmic' 'CURVES=1'
+    gates 'CURVE=filmic EXPOSURE=auto CLAMP=2' 'CURVES=1 METER=1 CLAMP=1'
+    gates 'EXPOSURE=-2.5 CLAMP=0' 'METER=0 CLAMP=0 CURVES=0'
     none='LIGHT_SAMPLES=0 UNIFORM=0 ROULETTE=0'
-    gates '' "$none ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17 CURVES=0"
+    gates '' "$none ADAPTIVE=0 INDIRECT=1 SAMPLERS=2 FORMATS=17 METER=0 CLAMP=0"
     ! grep -q QL_APP_ERROR "$work/said" || echo 'an error that none asked for'
     # what auto is, the scene's header says
     ! grep -q 'QL_CFG_DIRECT\|QL_CFG_LIGHT_CHOICES' "$work/said" ||

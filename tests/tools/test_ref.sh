@@ -89,6 +89,14 @@ agrees n_directions_are_those_of_double glossy.qlb --bounces 1 \
     --direct cosine --light-samples 3
 agrees mis_and_roulette_are_those_of_double cornell.qlb --direct mis \
     --bounces 3 --roulette
+agrees cut_contributions_are_those_of_double cornell.qlb --clamp 0.2
+"$build/qlux-sim" cornell.qlb -o core.pfm $small
+expect contributions_that_are_not_cut_are_rejected 4 bias \
+    "$build/qlux-diff" core.pfm double.pfm --max-bias 1e-3
+"$ref" cornell.qlb -o double.ppm $small --exposure auto &&
+    "$build/qlux-sim" cornell.qlb -o core.ppm $small --exposure auto
+"$build/qlux-diff" core.ppm double.ppm --max-relmse 1e-3 >out.txt
+say the_metered_exposure_is_the_cores $? "$(grep relmse out.txt)"
 agrees a_round_lamp_by_mis_is_that_of_double glossy.qlb --direct mis --bounces 0
 agrees a_round_lamp_by_its_area_is_that_of_double glossy.qlb --bounces 0
 printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nmtllib ball.mtl\nusemtl lamp\n' >ball.obj

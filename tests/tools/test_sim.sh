@@ -77,6 +77,11 @@ expect linear_radiance_has_no_exposure 1 "'--exposure' needs" \
     "$sim" scene.qlb -o a.pfm --exposure 1
 expect linear_radiance_has_no_curve 1 "'--curve' needs" \
     "$sim" scene.qlb -o a.pfm --curve filmic
+for radiance in -1 65536 0.000001 x ''; do
+    expect "clamp_'$radiance'_is_refused" 1 \
+        'from 0 to 65535\|0.0001 or more\|needs a value' \
+        "$sim" scene.qlb -o a.ppm --clamp "$radiance"
+done
 expect another_curve_is_refused 1 'filmic' \
     "$sim" scene.qlb -o a.ppm --curve gamma
 for stops in 64.1 -65 x ''; do
@@ -233,6 +238,50 @@ done
 ! cmp -s plain.ppm filmic.ppm && ! cmp -s filmic.ppm reinhard.ppm
 say curves_change_the_picture $?
 rm -f straight.ppm filmic.ppm reinhard.ppm
+
+# What auto meters is told, and the same whatever else differs.
+"$sim" scene.qlb -o auto.ppm $small --exposure auto --stats >stats.txt
+stops=$(sed -n 's/^exposure: //p' stats.txt)
+"$sim" scene.qlb -o stops.ppm $small --exposure "$stops"
+same the_metered_exposure_is_told auto.ppm stops.ppm
+! cmp -s auto.ppm plain.ppm
+say metering_changes_the_picture $? "$stops stops"
+"$sim" darker.qlb -o stops.ppm $small --exposure auto
+same the_exposure_of_the_scene_does_not_count auto.ppm stops.ppm
+"$merge" plain.qls -o stops.ppm --exposure auto
+same merge_and_sim_agree_on_what_is_metered auto.ppm stops.ppm
+"$sim" scene.qlb -o stops.ppm --size 20x14 --seed 3 --quiet --spp 2 --rows 3:9 \
+    --threads 3 --exposure auto --stats >stats.txt
+grep -qx "exposure: $stops" stats.txt
+say rows_threads_and_samples_do_not_change_it $?
+rm -f auto.ppm stops.ppm stats.txt
+
+# What is cut off is the difference of the means, and goes with the sums.
+"$sim" scene.qlb -o plain.pfm $small
+"$sim" scene.qlb -o cut.pfm --save-sums cut.qls $small --clamp 0.25 --stats \
+    >stats.txt
+"$build/qlux-diff" cut.pfm plain.pfm >out.txt
+awk '{ is[$1] = $2 } END { b = is["bias:"]; d = is["clamp-bias:"] - b
+    exit !(b < -1e-3 && d * d < 1e-12) }' stats.txt out.txt
+say the_bias_of_a_clamp_is_told $? "$(grep bias: stats.txt)"
+for samples in 0:3 3:8; do
+    "$sim" scene.qlb --save-sums cut${samples%:*}.qls --size 20x14 --spp 8 \
+        --seed 3 --quiet --clamp 0.25 --samples $samples
+done
+"$merge" cut0.qls cut3.qls --save-sums cuts.qls
+same what_is_cut_off_adds_up cut.qls cuts.qls
+"$sim" scene.qlb -o cut.pfm $small --clamp 0.25 --resume cut0.qls --stats |
+    grep '^clamp-bias' >out.txt
+grep '^clamp-bias' stats.txt | cmp -s - out.txt
+say it_is_kept_by_a_run_that_goes_on $?
+"$sim" scene.qlb -o cut.pfm $small --clamp 1000 --stats >stats.txt
+grep -qx 'clamp-bias: 0' stats.txt && cmp -s cut.pfm plain.pfm
+say a_limit_that_nothing_reaches_changes_nothing $?
+# The lamp alone: what the camera sees itself is not cut.
+"$sim" scene.qlb -o plain.pfm $small --direct none
+"$sim" scene.qlb -o cut.pfm $small --direct none --clamp 0.01
+same what_the_camera_sees_is_not_cut plain.pfm cut.pfm
+rm -f cut* plain.pfm stats.txt
 rm -f darker* plain.* brighter.ppm cornell.obj cornell.mtl
 
 # A picture that shows nothing says which exposure would.

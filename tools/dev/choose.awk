@@ -82,8 +82,16 @@ function check_part(name, text)
 
 function check_stops(name, text)
 {
-    if (text !~ /^[-+]?[0-9]*\.?[0-9]+$/ || text + 0 < -64 || text + 0 > 64)
-        wrong(name, "stops from -64 to 64")
+    if (text != "auto" && (text !~ /^[-+]?[0-9]*\.?[0-9]+$/ ||
+        text + 0 < -64 || text + 0 > 64))
+        wrong(name, "stops from -64 to 64, or auto")
+}
+
+function check_radiance(name, text)
+{
+    if (text !~ /^[0-9]*\.?[0-9]+$/ || text + 0 > 65535 ||
+        (text + 0 > 0 && text + 0 < 0.0001))
+        wrong(name, "0, or a radiance from 0.0001 to 65535")
 }
 
 function check_power(name, text,    n)
@@ -111,6 +119,8 @@ function check(name,    text, values, wh)
         check_part(name, text)
     else if (values == "stops")
         check_stops(name, text)
+    else if (values == "radiance")
+        check_radiance(name, text)
     else if (values == "power")
         check_power(name, text)
     else if (values ~ /\.\./) {
@@ -225,6 +235,8 @@ function in_c(key)
 {
     if (of[key] ~ /^QL_/)
         return gates_enumerator(of[key], value[key])
+    if (of[key] == "stops" && value[key] == "auto")
+        return 0
     return of[key] ~ /^[a-z]+ / ? place(value[key], of[key]) : value[key]
 }
 
@@ -281,6 +293,11 @@ function print_gates(    settings, key, k, need, formats, gates, n_gates)
     define("QL_CFG_ADAPTIVE", "ERROR" in value && value["ERROR"] + 0 > 0)
     define("QL_CFG_SAMPLERS", gates_set("SAMPLERS", settings))
     define("QL_CFG_CURVES", int(2 ^ settings["curve"] / 2))
+    key = value["EXPOSURE"] == "auto"
+    define("QL_CFG_METER", key)
+    if (key)
+        define("QL_APP_METER", 1)
+    define("QL_CFG_CLAMP", "CLAMP" in value && value["CLAMP"] + 0 > 0)
     # The stream is RGB888; a panel may have another format.
     formats = 1
     if ("PANEL" in board) {
@@ -319,7 +336,8 @@ function print_choice(key)
         define("QL_APP_WIDTH", value[key] + 0)
         define("QL_APP_HEIGHT", substr(value[key], index(value[key], "x") + 1))
     } else
-        define(c_name[key], value[key] == "auto" ? "QL_SCENE_" key : \
+        define(c_name[key], value[key] == "auto" && of[key] ~ /^QL_/ ? \
+            "QL_SCENE_" key : \
             in_c(key))
 }
 

@@ -7,7 +7,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -43,7 +42,9 @@ static const option_t merging[] = {
         {"--format F", OPTION_WORD, AT(format), .words = develop_formats,
                 .help = "of the display, widened to 8-bit RGB"},
         {"--exposure S", OPTION_REAL, AT(exposure), .min = -64, .max = 64,
-                .help = "stops brighter than the scene's own exposure"},
+                .words = render_words_exposure,
+                .help = "stops brighter than the scene's own exposure; auto "
+                        "is what the parts were metered at"},
         {"--curve C", OPTION_WORD, AT(curve), .words = render_words_curve,
                 .help = "how bright light is shown; filmic and reinhard let "
                         "it roll off to white"},
@@ -210,6 +211,7 @@ static void take_part(merge_t *m, part_t *part)
     for (uint32_t i = 0; i < ranges->count; i++) {
         ranges_add(&m->whole.ranges, ranges->items + i);
     }
+    sums_add_pixels(&m->whole.cut, &part->file.head.cut, 1);
     part->range_end = m->whole.ranges.count;
     ranges_free(ranges);
 }
@@ -362,6 +364,7 @@ int main(int argc, char **argv)
     merge_t m;
     develop_t how = {.row = merged_row, .from = &m};
     cli_out_t picture, save;
+    bool metered;
 
     options_parse(&program, argc, argv, &o);
     check_options(&o);
@@ -373,7 +376,11 @@ int main(int argc, char **argv)
         how.kind = image_kind(o.picture);
         how.format = o.format;
         how.curve = o.curve;
-        how.exposure_q8 = (int16_t)lround(o.exposure * 256); /* < 2^15 */
+        render_options_expose(o.exposure, &how.exposure_q8, &metered);
+        if (metered) {
+            how.exposure_q8 =
+                    (int16_t)sums_field_value(&m.whole, SUMS_METERED_Q8);
+        }
         cli_out_open(&picture, o.picture);
         develop_write(&m.whole, &how, &picture);
     }

@@ -172,6 +172,16 @@ static void print_stats(
     render_options_print(settings);
 }
 
+/* The core's exposure, so that pictures can be compared. */
+static void meter(ql_settings_t *settings, const ql_scene_t *scene)
+{
+    ql_render_t render;
+
+    if (ql_render_init(&render, scene, settings) == QL_OK) {
+        settings->exposure_q8 = render.settings.exposure_q8;
+    }
+}
+
 /* The picture as it will be; rows within it. */
 static void resolve(render_options_t *o, const ql_scene_t *scene)
 {
@@ -197,6 +207,7 @@ int main(int argc, char **argv)
     resolve(&options, &blob);
     ref_scene_init(&scene, &blob);
     memset(&job, 0, sizeof job);
+    meter(&options.settings, &blob);
     job.scene = &scene;
     job.options = &options;
     job.rgb = cli_alloc((size_t)options.settings.width *

@@ -27,6 +27,7 @@ typedef struct {
     ql_sampler_t sampler;
     double *rgb;
     ref_stats_t *stats;
+    bool first; /* the camera's ray is followed */
 } path_t;
 
 typedef struct {
@@ -69,12 +70,29 @@ static void put(path_t *path, unsigned k, double light)
     path->rgb[k] += light;
 }
 
+/* Add a contribution, as much of it as --clamp lets; all of what the camera
+ * sees itself. */
+static void deposit(path_t *path, const double light[3])
+{
+    const double limit = ldexp(path->settings->clamp_q16, -16);
+    const double most = largest(light) * path->scene->unit;
+    const double part =
+            limit > 0 && !path->first && most > limit ? limit / most : 1;
+
+    for (unsigned k = 0; k < 3; k++) {
+        put(path, k, light[k] * part);
+    }
+}
+
 static void add(path_t *path, const double carried[3], const double value[3],
         double scale)
 {
+    double light[3];
+
     for (unsigned k = 0; k < 3; k++) {
-        put(path, k, product(path, carried[k], value[k]) * scale);
+        light[k] = product(path, carried[k], value[k]) * scale;
     }
+    deposit(path, light);
 }
 
 static void tell(const path_t *path, uint32_t what)
@@ -146,7 +164,7 @@ static void reflect(
 {
     const ref_rounding_t *rounding = path->scene->rounding;
     const ref_material_t *material = v->bsdf.material;
-    double diffuse, lobe;
+    double diffuse, lobe, light[3];
 
     if (rounding != NULL && rounding->geometry != NULL) {
         rounding->geometry(rounding->data, &v->surface, aim, &inverse);
@@ -157,10 +175,10 @@ static void reflect(
         const double albedo = product(path, v->carried[k], material->albedo[k]);
         const double specular = v->carried[k] * material->specular[k];
 
-        put(path, k,
-                product(path, albedo, aim->emission[k]) * diffuse +
-                        specular * aim->emission[k] * lobe);
+        light[k] = product(path, albedo, aim->emission[k]) * diffuse +
+                   specular * aim->emission[k] * lobe;
     }
+    deposit(path, light);
 }
 
 /* One sample of one light. */
@@ -398,11 +416,14 @@ static void trace(path_t *path, way_t *way)
     state_t state = {0, true};
     vertex_t v;
     ref_hit_t hit;
+    bool met;
 
     path->stats->paths++;
     for (;; state.bounce++) {
-        if (!follow(path, way, &hit) ||
-                !arrive(path, way, &hit, state.bounce, &v)) {
+        path->first = state.bounce == 0;
+        met = follow(path, way, &hit);
+        path->first = false;
+        if (!met || !arrive(path, way, &hit, state.bounce, &v)) {
             return;
         }
         if (aims(path) && ref_bsdf_has_spread(&v.bsdf)) {
@@ -436,7 +457,8 @@ void ref_pixel(const ref_scene_t *scene, const ql_settings_t *settings,
         uint16_t x, uint16_t y, uint32_t first, uint32_t count, double rgb[3],
         ref_stats_t *stats)
 {
-    path_t path = {scene, settings, {0, 0, false}, rgb, stats};
+    path_t path = {
+            .scene = scene, .settings = settings, .rgb = rgb, .stats = stats};
 
     ql_sampler_begin(&path.sampler, settings->sampler, settings->seed, x, y);
     for (uint32_t i = 0; i < count; i++) {

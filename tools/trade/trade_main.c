@@ -148,16 +148,21 @@ static void write_figure(const trade_t *trade, const char *path)
     figure_free(&figure);
 }
 
-/* An option that a table has no use for. */
-static void refuse_options_of_scenes(void)
+/* What is neither a table nor a scene, or an option that a table has no use
+ * for. */
+static void refuse_options_of_scenes(const char *input)
 {
     static const char *const given[] = {
             "--board", "--size", "--threads", "--quick"};
+    const size_t length = strlen(input);
 
     for (unsigned i = 0; i < sizeof given / sizeof given[0]; i++) {
         if (options_given(given[i])) {
             options_fail("'%s' is of a scene, not of a table", given[i]);
         }
+    }
+    if (length < 4 || strcmp(input + length - 4, ".csv") != 0) {
+        options_fail("'%s': expected .csv, .scene, .obj or .qlb", input);
     }
 }
 
@@ -209,7 +214,7 @@ int main(int argc, char **argv)
         measure_scene(&measure, &o, argv[0]);
         trade_points(&trade, &measure, o.input);
     } else {
-        refuse_options_of_scenes();
+        refuse_options_of_scenes(o.input);
         trade_read(&trade, o.input);
     }
     if (o.picture != NULL) {

@@ -32,22 +32,15 @@ typedef struct {
 
 static ql_settings_t settings_of(const char *way)
 {
-    static const struct {
-        const char *name;
-        ql_direct_t direct;
-    } directs[] = {{"none-", QL_DIRECT_NONE}, {"area-", QL_DIRECT_AREA},
-            {"hemisphere-", QL_DIRECT_HEMISPHERE},
-            {"cosine-", QL_DIRECT_COSINE},
-            {"solid-angle-", QL_DIRECT_SOLID_ANGLE}, {"mis-", QL_DIRECT_MIS}};
+    static const char *const directs[] = {"none-", "area-", "hemisphere-",
+            "cosine-", "solid-angle-", "mis-"}; /* as ql_direct_t */
     ql_settings_t s = QL_SETTINGS_DEFAULT;
     const char *lights = strstr(way, "-lights-");
 
     for (unsigned i = 0; i < sizeof directs / sizeof directs[0]; i++) {
-        const size_t length = strlen(directs[i].name);
-
-        if (strncmp(way, directs[i].name, length) == 0) {
-            s.direct = (uint8_t)directs[i].direct;
-            s.bounces = (uint8_t)atoi(way + length);
+        if (strncmp(way, directs[i], strlen(directs[i])) == 0) {
+            s.direct = (uint8_t)i;
+            s.bounces = (uint8_t)atoi(way + strlen(directs[i]));
         }
     }
     if (lights != NULL) {

@@ -120,8 +120,8 @@ qlux-recv|a.qlb|a blob
 what a board sends
 qlux-recv|a.png|a PNG picture
 what a board sends
-qlux-trade|a.qls|a sum file
-a .scene, .obj, .qlb or a table of make trade
+qlux-trade|a.qlb|a blob
+a table of tools/trade/trade.sh
 END
 
 # A map of the sky.

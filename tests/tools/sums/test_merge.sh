@@ -27,11 +27,11 @@ reverse() {
 }
 # file PART HEX...: the sums of a part, each as sixteen digits
 file() {
-    "$patch" "$1" 92 "$(shift && printf '%s\n' "$@" | reverse | tr -d '\n')"
+    "$patch" "$1" 124 "$(shift && printf '%s\n' "$@" | reverse | tr -d '\n')"
 }
 # sums FILE: its six sums
 sums() {
-    od -An -v -tx1 -j 92 -N 48 -w8 "$1" | tr -d ' ' | reverse
+    od -An -v -tx1 -j 124 -N 48 -w8 "$1" | tr -d ' ' | reverse
 }
 
 # A, B and what they add up to: carries into the upper half, into its highest
@@ -67,13 +67,13 @@ done
 say every_sum_carries_and_stops_at_its_largest $ok
 
 # The mean of 2^24 samples is one: half of them in each part.
-"$patch" part0.qls 76 "00000000010000000000000000008000" \
-    92 "$(printf '0000000000800000%.0s' 1 2 3 4 5 6)" >a.qls
-"$patch" part1.qls 76 "00000000010000000000800000000001" \
-    92 "$(printf '0000000000800000%.0s' 1 2 3 4 5 6)" >b.qls
+"$patch" part0.qls 108 "00000000010000000000000000008000" \
+    124 "$(printf '0000000000800000%.0s' 1 2 3 4 5 6)" >a.qls
+"$patch" part1.qls 108 "00000000010000000000800000000001" \
+    124 "$(printf '0000000000800000%.0s' 1 2 3 4 5 6)" >b.qls
 "$merge" a.qls b.qls -o sum.pfm --save-sums sum.qls && [ "$(sums sum.qls |
     sort -u)" = 0001000000000000 ] &&
-    [ "$(od -An -tx1 -j 76 -N 16 sum.qls | tr -d ' ')" = \
+    [ "$(od -An -tx1 -j 108 -N 16 sum.qls | tr -d ' ')" = \
         00000000010000000000000000000001 ]
 say counts_of_samples_add_up_to_the_most $?
 exponent=$(od -An -td4 -j 20 -N 4 part0.qls | tr -d ' ')
@@ -94,7 +94,7 @@ done
 "$merge" many*.qls -o sum.pfm --save-sums sum.qls &&
     cmp -s whole.qls sum.qls && cmp -s whole.pfm sum.pfm
 say parts_of_many_samples_add_up_to_one_run $?
-high=$(od -An -v -tu4 -j 92 -N 144 -w8 whole.qls | awk '$2 > 0' | wc -l)
+high=$(od -An -v -tu4 -j 124 -N 144 -w8 whole.qls | awk '$2 > 0' | wc -l)
 [ "$high" -eq 18 ]
 say all_of_their_sums_are_beyond_32_bits $? "$high of 18"
 
@@ -146,17 +146,17 @@ say some_rows_of_a_large_picture_take_the_memory_of_some $?
 # More bytes than a number of 32 bits counts, of which none is on the disk.
 truncate -s $((16384 * 16384 * 24 + 96)) bad.qls
 "$merge" bad.qls -o no.ppm 2>err.txt
-[ $? -eq 2 ] && grep -q 'byte 0: expected a sum file (QLS3)' err.txt
+[ $? -eq 2 ] && grep -q 'byte 0: expected a sum file (QLS4)' err.txt
 say a_file_of_6_gigabytes_is_opened $?
 rm bad.qls
 # A sample of each pixel in each part.
 for k in $(seq 0 499); do
     hex=$(printf '%02x%02x0000%02x%02x0000' $((k % 256)) $((k / 256)) \
         $(((k + 1) % 256)) $(((k + 1) / 256)))
-    "$patch" part0.qls 84 "$hex" >"s$k.qls"
+    "$patch" part0.qls 116 "$hex" >"s$k.qls"
 done
 (ulimit -n 64 && "$merge" s[0-9]*.qls --save-sums sum.qls -o sum.pfm) &&
-    [ "$(od -An -w20 -tu4 -j 72 -N 20 sum.qls | tr -s ' ')" = \
+    [ "$(od -An -w20 -tu4 -j 104 -N 20 sum.qls | tr -s ' ')" = \
         ' 1 0 1 0 500' ] &&
     [ "$(sums sum.qls)" = "$(sums part0.qls | while read -r hex; do
         printf '%016x\n' $((0x$hex * 500)); done)" ]
@@ -195,6 +195,8 @@ differs choices_of_lights_are_said_in_words \
     'choice of lights is all, but power' qlux-sim --direct mis --lights all
 differs roulette_is_said_in_words 'roulette is yes, but no' \
     qlux-sim --direct mis --roulette
+differs cut_contributions_are_said_in_units_of_ke 'clamp is 1.5, but 0' \
+    qlux-sim --direct mis --clamp 1.5
 differs seeds_are_numbers 'seed is 4294967295, but 0' \
     qlux-sim --direct mis --seed 4294967295
 "$patch" one.qls 44 09000000 >two.qls
@@ -221,25 +223,25 @@ refuses() {
 size=$(wc -c <part1.qls)
 changed="$((size - 4)): the CRC-32 does not match: the file was cut or changed"
 # Of the settings, of the ranges, of the sums, of the check value.
-for at in 4 43 71 72 76 91 92 "$((size - 5))" "$((size - 1))"; do
+for at in 4 43 79 80 103 104 108 123 124 "$((size - 5))" "$((size - 1))"; do
     { head -c "$at" part1.qls
       tail -c +$((at + 1)) part1.qls | head -c 1 | tr '\000-\377' \
           '\200-\377\000-\177'
       tail -c +$((at + 2)) part1.qls; } >bad.qls
     refuses "byte_${at}_changed_is_refused" "$changed"
 done
-for cut in 3 4 71 79 80 100 "$((size - 1))"; do
+for cut in 3 4 71 111 112 130 "$((size - 1))"; do
     head -c "$cut" part1.qls >bad.qls
     case $cut in
-    3) why='0: expected a sum file (QLS3)' ;;
-    4 | 71 | 79) why="$cut: the file ends within its header" ;;
+    3) why='0: expected a sum file (QLS4)' ;;
+    4 | 71 | 111) why="$cut: the file ends within its header" ;;
     *) why="$((cut - 4)): ${changed#*: }" ;;
     esac
     refuses "a_file_of_${cut}_bytes_is_refused" "$why"
 done
-for version in 1 2 4; do
+for version in 1 2 3; do
     "$patch" part1.qls 3 3$version >bad.qls
-    refuses "version_${version}_is_refused" '0: expected a sum file (QLS3)'
+    refuses "version_${version}_is_refused" '0: expected a sum file (QLS4)'
 done
 # Numbers that no program of ours writes, under a right check value.
 # A line says what is put where, the next one what comes of it.
@@ -265,25 +267,27 @@ table_bits_11_are_refused 64 0b000000
     64: expected table bits from 5 to 10
 refined_tables_2_are_refused 68 02000000
     68: expected refined tables from 0 to 1
-more_ranges_than_bytes_are_refused 72 05000000
-    72: expected a number of ranges that the file can hold
-a_range_of_no_rows_is_refused 76 01000000
-    76: expected a range of rows of the picture
-a_range_below_the_picture_is_refused 80 02000000
-    76: expected a range of rows of the picture
-a_range_of_no_samples_is_refused 88 01000000
-    76: expected a range of samples from 0 to 2^24
-a_range_beyond_2_to_the_24_is_refused 88 01000001
-    76: expected a range of samples from 0 to 2^24
+metered_exposure_of_65_stops_is_refused 72 00410000
+    72: expected metered exposure from -16384 to 16384
+more_ranges_than_bytes_are_refused 104 05000000
+    104: expected a number of ranges that the file can hold
+a_range_of_no_rows_is_refused 108 01000000
+    108: expected a range of rows of the picture
+a_range_below_the_picture_is_refused 112 02000000
+    108: expected a range of rows of the picture
+a_range_of_no_samples_is_refused 120 01000000
+    108: expected a range of samples from 0 to 2^24
+a_range_beyond_2_to_the_24_is_refused 120 01000001
+    108: expected a range of samples from 0 to 2^24
 sums_too_many_are_refused 4 01000000
-    92: unexpected bytes after the sums
+    124: unexpected bytes after the sums
 sums_too_few_are_refused 4 03000000
-    92: the sums end too early
+    124: the sums end too early
 END
 
 # Its one range twice; the first sums are taken for the second.
-"$patch" part1.qls 72 02000000 92 "$(od -An -v -tx1 -j 76 -N 16 part1.qls |
+"$patch" part1.qls 104 02000000 124 "$(od -An -v -tx1 -j 108 -N 16 part1.qls |
     tr -d ' \n')" >bad.qls
-refuses two_ranges_that_overlap_are_refused '92: a range that overlaps another'
+refuses two_ranges_that_overlap_are_refused '124: a range that overlaps another'
 
 exit $((failures != 0))

@@ -195,7 +195,7 @@ static const char *const wishes[] = {[KIND_SCENE] = "a .scene or an OBJ",
         [KIND_SUMS] = "sums",
         [KIND_PICTURE] = "a PPM, PFM or PNG picture",
         [KIND_STREAM] = "what a board sends",
-        [KIND_TABLE] = "a .scene, .obj, .qlb or a table of make trade"};
+        [KIND_TABLE] = "a table of tools/trade/trade.sh"};
 
 /* Is it what is wanted, or does it serve? */
 static bool serves(kind_t kind, kind_t wanted)

@@ -10,15 +10,16 @@
 
 /* What an option takes, and the type of the field it is stored in. */
 typedef enum {
-    OPTION_FLAG,     /* bool: true if given; takes no value */
-    OPTION_TEXT,     /* const char * */
-    OPTION_FILE,     /* const char *; ends in one of the words, if it has any */
-    OPTION_LIST,     /* option_list_t; given any number of times */
-    OPTION_LABEL,    /* option_list_t, an argument: LABEL=IN, and a label may
+    OPTION_FLAG,   /* bool: true if given; takes no value */
+    OPTION_TEXT,   /* const char * */
+    OPTION_FILE,   /* const char *; ends in one of the words, if it has any */
+    OPTION_LIST,   /* option_list_t; given any number of times */
+    OPTION_LABEL,  /* option_list_t, an argument: LABEL=IN, and a label may
                         begin with '-' */
-    OPTION_WORD,     /* unsigned integer of any size: which of the words */
-    OPTION_NUMBER,   /* unsigned integer of any size, min to max */
-    OPTION_REAL,     /* double, min to max; a max of HUGE_VAL is none */
+    OPTION_WORD,   /* unsigned integer of any size: which of the words */
+    OPTION_NUMBER, /* unsigned integer of any size, min to max */
+    OPTION_REAL,   /* double, min to max; a max of HUGE_VAL is none. With words
+                       also the first of them, which is HUGE_VAL */
     OPTION_POSITIVE, /* double, above 0 and finite */
     OPTION_SIZE,     /* option_size_t: WxH, both min to max */
     OPTION_RANGE     /* option_range_t: A:B, min <= A < B <= max */

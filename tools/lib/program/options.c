@@ -120,9 +120,10 @@ static void describe(char *text, size_t size, const option_t *o)
         break;
     case OPTION_REAL:
         snprintf(text, size,
-                o->max < HUGE_VAL ? "a number from %g to %g"
-                                  : "a number, %g or more",
-                o->min, o->max);
+                o->words != NULL    ? "a number from %g to %g, or %s"
+                : o->max < HUGE_VAL ? "a number from %g to %g"
+                                    : "a number, %g or more",
+                o->min, o->max, words);
         break;
     case OPTION_POSITIVE:
         snprintf(text, size, "a finite number above 0");
@@ -249,13 +250,17 @@ static bool take_number(const option_t *option, const char *text)
 
 static bool take_real(const option_t *option, const char *text)
 {
+    const bool is_word =
+            option->words != NULL && strcmp(text, *option->words) == 0;
     char *end;
-    const double value = strtod(text, &end);
+    double value = strtod(text, &end);
     const bool fits = option->kind == OPTION_POSITIVE
                               ? value > 0 && value < HUGE_VAL
                               : value >= option->min && value <= option->max;
 
-    if (end == text || *end != '\0' || !fits) {
+    if (is_word) {
+        value = HUGE_VAL;
+    } else if (end == text || *end != '\0' || !fits) {
         return false;
     }
     memcpy(line.into + option->field.at, &value, sizeof value);

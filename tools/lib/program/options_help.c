@@ -118,7 +118,9 @@ static void add_range(char *text, size_t size, const option_t *o)
         break;
     case OPTION_REAL:
         if (o->max < HUGE_VAL) {
-            snprintf(text, size, ", %g to %g", o->min, o->max);
+            snprintf(text, size, ", %g to %g%s%s", o->min, o->max,
+                    o->words != NULL ? " or " : "",
+                    o->words != NULL ? *o->words : "");
         }
         break;
     default:

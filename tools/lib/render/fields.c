@@ -67,8 +67,10 @@ const char *fields_text(char *text, const sums_t *sums, unsigned field)
                 (unsigned)sums->field[SUMS_DIR_BITS]);
     } else if (field == SUMS_BLOB_CRC) {
         snprintf(text, FIELDS_TEXT_BYTES, "%08" PRIx64, value);
-    } else if (field == SUMS_EXPOSURE_Q8) {
+    } else if (field == SUMS_EXPOSURE_Q8 || field == SUMS_METERED_Q8) {
         snprintf(text, FIELDS_TEXT_BYTES, "%g", (double)value / 256);
+    } else if (field == SUMS_CLAMP_Q16) {
+        snprintf(text, FIELDS_TEXT_BYTES, "%.8g", (double)value / 65536);
     } else {
         snprintf(text, FIELDS_TEXT_BYTES, "%" PRId64, value);
     }

@@ -20,6 +20,7 @@ const char *const render_words_indirect[] = {
         "none", "cosine", "uniform", "brdf", NULL};
 const char *const render_words_lights[] = {
         "power", "all", "uniform", "auto", NULL};
+const char *const render_words_exposure[] = {"auto", NULL};
 const char *const render_words_curve[] = {"srgb", "filmic", "reinhard", NULL};
 
 static const char *const pictures[] = {".ppm", ".pfm", ".png", NULL};
@@ -63,8 +64,16 @@ const option_t render_options_settings[] = {
                         "cosine"},
         {"--roulette", OPTION_FLAG, AT(roulette),
                 .help = "end paths at random, by their throughput"},
+#if QL_CFG_CLAMP
+        {"--clamp X", OPTION_REAL, AT(clamp), .max = UINT16_MAX,
+                .preset = "0, which is off",
+                .help = "cut contributions above this radiance, in the units "
+                        "of Ke; biased: --stats tells by how much"},
+#endif
         {"--exposure S", OPTION_REAL, AT(exposure), .min = -64, .max = 64,
-                .help = "stops brighter than the scene's own exposure"},
+                .words = render_words_exposure,
+                .help = "stops brighter than the scene's own exposure; auto "
+                        "meters the picture"},
 #if QL_ROLL_OFF
         {"--curve C", OPTION_WORD, AT(settings.curve),
                 .words = render_words_curve,
@@ -136,6 +145,25 @@ static void take_error(render_options_t *o)
         options_fail("'--error' goes with none of '--samples', '--save-sums', "
                      "'--resume' and '--progressive': pixels end at samples of "
                      "their own");
+    }
+#else
+    (void)o;
+#endif
+}
+
+void render_options_expose(double stops, int16_t *exposure_q8, bool *metered)
+{
+    *metered = stops == HUGE_VAL;
+    *exposure_q8 = *metered ? 0 : (int16_t)lround(stops * 256); /* < 2^15 */
+}
+
+/* The radiance to the nearest 2^-16. */
+static void take_clamp(render_options_t *o)
+{
+#if QL_CFG_CLAMP
+    o->settings.clamp_q16 = QL_CLAMP_Q16(o->clamp); /* at most 65535 2^16 */
+    if (o->clamp > 0 && o->settings.clamp_q16 == 0) {
+        options_fail("'--clamp' is 0, or 0.0001 or more");
     }
 #else
     (void)o;
@@ -242,6 +270,7 @@ void render_options_parse(
 {
     static const render_options_t start = {.settings = QL_SETTINGS_DEFAULT};
     render_options_t *o = into;
+    bool metered;
 
     *o = start;
     o->threads = count_processors();
@@ -255,12 +284,14 @@ void render_options_parse(
     o->settings.width = (uint16_t)o->size.width; /* at most QL_IMAGE_MAX */
     o->settings.height = (uint16_t)o->size.height;
     o->settings.roulette = o->roulette;
-    o->settings.exposure_q8 = (int16_t)lround(o->exposure * 256); /* < 2^15 */
+    render_options_expose(o->exposure, &o->settings.exposure_q8, &metered);
+    o->settings.meter = metered;
     if (o->progressive &&
             (o->picture == NULL || strcmp(o->picture, "-") == 0)) {
         options_fail("'--progressive' needs '-o' with a name");
     }
     take_error(o);
+    take_clamp(o);
     take_samples(o);
     warn_of_idle(&o->settings, &start.settings);
 }

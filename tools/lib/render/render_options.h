@@ -29,6 +29,7 @@ typedef struct {
     option_size_t size;
     double error;
     double exposure;
+    double clamp;
     bool roulette;
 } render_options_t;
 
@@ -38,6 +39,7 @@ extern const char *const render_words_direct[];
 extern const char *const render_words_indirect[];
 extern const char *const render_words_lights[];
 extern const char *const render_words_curve[];
+extern const char *const render_words_exposure[]; /* beside stops */
 
 /* Parts of a program's table. Their fields lie in a render_options_t. */
 extern const option_t render_options_scene[];    /* SCENE.qlb */
@@ -57,6 +59,14 @@ extern const option_t render_options_run[];      /* --threads, --stats, .. */
  */
 void render_options_parse(
         const program_t *program, int argc, char **argv, void *into);
+
+/* What --exposure says.
+ *
+ *   stops        -     the option's field
+ *   exposure_q8  s7.8  out: stops, 0 if they are to be metered
+ *   metered      -     out
+ */
+void render_options_expose(double stops, int16_t *exposure_q8, bool *metered);
 
 /* There is no picture as a display shows it: options_fail() if one of
  * --format, --exposure and --curve was given. */

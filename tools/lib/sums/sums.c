@@ -20,7 +20,7 @@
 #include "lib/program/bytes.h"
 
 enum {
-    HEAD_BYTES = 8 + 4 * SUMS_FIELD_COUNT,
+    HEAD_BYTES = 8 + 4 * SUMS_FIELD_COUNT + 24,
     RANGE_BYTES = 16,
     PIXEL_BYTES = 24,
     CRC_BYTES = 4,
@@ -293,6 +293,9 @@ static const char *take_head(sums_file_t *file, size_t *at)
     if (error != NULL) {
         return error;
     }
+    for (unsigned i = 0; i < 3; i++, *at += 8) {
+        file->head.cut.rgb[i] = bytes_get_le64(head + *at);
+    }
     count = bytes_get_le32(head + *at);
     if (count > (file->size - HEAD_BYTES) / RANGE_BYTES) {
         return "expected a number of ranges that the file can hold";
@@ -318,8 +321,8 @@ const char *sums_open(sums_file_t *file, uint64_t *where)
     if (file->size >= sizeof magic) {
         fetch(file, 0, magic, sizeof magic);
     }
-    if (file->size < sizeof magic || memcmp(magic, "QLS3", 4) != 0) {
-        return "expected a sum file (QLS3)";
+    if (file->size < sizeof magic || memcmp(magic, "QLS4", 4) != 0) {
+        return "expected a sum file (QLS4)";
     }
     *where = file->size;
     if (file->size < HEAD_BYTES + CRC_BYTES) {
@@ -406,6 +409,7 @@ const char *sums_decode(
 
         memcpy(sums->field, file.head.field, sizeof sums->field);
         sums_new(sums, 0, height);
+        sums->cut = file.head.cut;
         sums->ranges = file.head.ranges;
         memset(&file.head.ranges, 0, sizeof file.head.ranges);
         ranges_count(&sums->ranges, sums->row_counts, height);
@@ -437,10 +441,11 @@ void sums_write_head(sums_writer_t *to, const sums_t *sums, cli_out_t *out)
 {
     to->file = out->file;
     to->crc = 0;
-    put_bytes(to, (const uint8_t *)"QLS3", 4);
+    put_bytes(to, (const uint8_t *)"QLS4", 4);
     for (unsigned i = 0; i < SUMS_FIELD_COUNT; i++) {
         put_le32(to, sums->field[i]);
     }
+    sums_write_row(to, &sums->cut, 1);
     put_le32(to, sums->ranges.count);
     for (uint32_t i = 0; i < sums->ranges.count; i++) {
         const sums_range_t *r = sums->ranges.items + i;

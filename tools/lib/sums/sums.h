@@ -4,10 +4,11 @@
 /* A .qls file holds part of a picture: some rows, some sample indices. Parts of
  * one picture add up to the very bits of the whole. Numbers are little-endian:
  *
- *     0   4         magic "QLS3"
- *     4   4 * 17    the settings of SUMS_FIELD_LIST, in its order
- *    72   4         n, the number of ranges
- *    76   16 * n    ranges: row_first, row_end, sample_first, sample_end
+ *     0   4         magic "QLS4"
+ *     4   4 * 19    the settings of SUMS_FIELD_LIST, in its order
+ *    80   24        u64 of R, G and B: what --clamp cut off the sums, u40.24
+ *   104   4         n, the number of ranges
+ *   108   16 * n    ranges: row_first, row_end, sample_first, sample_end
  *     .   24 * w    for each row that a range holds, from the top: for each
  *                   pixel u64 sums of R, G and B, u40.24 radiance units
  *     .   4         CRC-32 of everything before
@@ -43,7 +44,9 @@
     X(SUMS_LIGHT_SAMPLES, "samples a light", 1, 255)                           \
     X(SUMS_ROULETTE, "roulette", 0, 1)                                         \
     X(SUMS_TABLE_BITS, "table bits", 5, 10)                                    \
-    X(SUMS_TABLE_LERP, "refined tables", 0, 1)
+    X(SUMS_TABLE_LERP, "refined tables", 0, 1)                                 \
+    X(SUMS_METERED_Q8, "metered exposure", -16384, 16384)                      \
+    X(SUMS_CLAMP_Q16, "clamp", 0, 0xffffffff)
 
 enum {
 #define SUMS_FIELD_ENUM(name, text, min, max) name,
@@ -54,6 +57,7 @@ enum {
 
 typedef struct {
     uint32_t field[SUMS_FIELD_COUNT];
+    ql_sum_t cut;         /* off the pixels, all together; saturates */
     ranges_t ranges;      /* what the pixels hold */
     uint32_t *row_counts; /* samples of a pixel, for each row of the picture */
     uint32_t row_first;   /* of the rows whose pixels are in memory */
