@@ -9,6 +9,11 @@ suite=tools/bare
 . tests/support/workspace.sh
 scene=$build/qlux-scene
 
+# What auto is takes time to find out, and is not what is tested here.
+compile() {
+    "$scene" "$@" --direct area
+}
+
 # box NAME LOW HIGH SIDES [inside]: a box from "X Y Z" to "X Y Z", without the
 # sides that are not among -x +x -y +y -z +z; fronts outside or inside
 box() {
@@ -41,7 +46,7 @@ printf 'newmtl lamp\nKd 0\nKe 1\n' >l.mtl
 in_sight() {
     claim=$1 file=$2
     shift 2
-    "$scene" "$file" -o a.qlb "$@" 2>a.err &&
+    compile "$file" -o a.qlb "$@" 2>a.err &&
         "$build/qlux-sim" a.qlb -o a.ppm --spp 16 --size 64x64 --quiet \
             --direct none --indirect none
     note=$(tail -c 12288 a.ppm | od -An -v -tu1 -w3 | awk '
@@ -85,8 +90,8 @@ in_sight what_has_z_up_is_in_sight tall.obj --quiet --up z
 written() {
     claim=$1 file=$2 script=$3
     shift 3
-    "$scene" "$file" -o a.qlb "$@" --write-scene "$script" >a.out 2>a.err &&
-        "$scene" "$script" -o b.qlb --quiet 2>b.err && cmp a.qlb b.qlb &&
+    compile "$file" -o a.qlb "$@" --write-scene "$script" >a.out 2>a.err &&
+        compile "$script" -o b.qlb --quiet 2>b.err && cmp a.qlb b.qlb &&
         sed -n 's/^    //p' a.err | cmp - "$script"
     say "$claim" $?
 }
@@ -103,14 +108,14 @@ say it_names_a_file_beside_it_by_its_name $?
 cp pot.obj 'a pot # at 1 2.obj'
 written a_name_may_have_blanks_and_hashes 'a pot # at 1 2.obj' pot.scene
 cp pot.obj pot.txt
-"$scene" pot.obj -o a.qlb --quiet && "$scene" pot.txt -o b.qlb --quiet &&
+compile pot.obj -o a.qlb --quiet && compile pot.txt -o b.qlb --quiet &&
     cmp a.qlb b.qlb
 say an_obj_is_known_by_its_text $?
-"$scene" pot.obj -o a.qlb --quiet >a.out 2>a.err && [ ! -s a.err ]
+compile pot.obj -o a.qlb --quiet >a.out 2>a.err && [ ! -s a.err ]
 say quiet_prints_no_scene $?
 awk '$1 == "v" { print "v", $2, -$4, $3; next } { print }' pot.obj >z.obj
-"$scene" pot.obj -o a.qlb --quiet --floor &&
-    "$scene" z.obj -o b.qlb --quiet --floor --up z && cmp a.qlb b.qlb
+compile pot.obj -o a.qlb --quiet --floor &&
+    compile z.obj -o b.qlb --quiet --floor --up z && cmp a.qlb b.qlb
 say z_up_is_the_same_picture $?
 
 # ---- light and floor ----
@@ -129,7 +134,7 @@ has() { # CLAIM TEXT...: the scene written has lines like these, "!" it has not
 }
 describe() { # FILE [OPTIONS]
     rm -f a.scene
-    "$scene" "$@" -o a.qlb --quiet --write-scene a.scene 2>a.err
+    compile "$@" -o a.qlb --quiet --write-scene a.scene 2>a.err
 }
 describe pot.obj --floor
 has an_object_that_does_not_shine_has_a_sky_and_a_lamp '^sky 0.35' \

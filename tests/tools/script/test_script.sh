@@ -19,7 +19,7 @@ blob() {
     name=$1
     shift
     printf '%s\n' "$cam" "$@" >"$name.scene"
-    "$scene" "$name.scene" -o "$name.qlb" --quiet 2>"$name.err"
+    "$scene" "$name.scene" -o "$name.qlb" --quiet --direct area 2>"$name.err"
 }
 
 # same CLAIM: one.qlb and two.qlb are one, and nothing was said of the second
@@ -55,7 +55,8 @@ blob two 'material b Kd .9' 'box to -1 -2 -3 from 1 2 3 material b inside' \
 say the_name_of_a_material_ends_its_line $?
 printf 'box from 0 0 0 to 2 2 2%s\nmaterial b Ke 1 1 1\n%s\n' \
     ' inside material b' 'camera eye 1 1 1 look 2 1 1 fov 40' >in.scene
-"$scene" in.scene -o in.qlb --quiet && "$build/qlux-sim" in.qlb -o in.pfm \
+"$scene" in.scene --direct area -o in.qlb --quiet &&
+    "$build/qlux-sim" in.qlb -o in.pfm \
     --spp 1 --direct none --indirect none --size 2x2 --quiet &&
     tail -c 4 in.pfm | od -An -tx1 | grep -q '00 00 80 3f'
 say a_box_inside_shines_inwards $?
