@@ -16,7 +16,7 @@ chmod +w ./*
     "$build/qlux-scene" --dump a.qlb >a.txt &&
     "$build/qlux-sim" a.qlb -o a.png --spp 1 --size 4x4 --quiet \
         --save-sums a.qls || exit 3
-cp "$root/tools/trade/trade.csv" t.csv
+cp a.qlb blob.csv
 { printf '# Blender 4.2\no Cube\n' && cat square.obj; } >mesh.txt
 printf 'solid cube\n facet normal 0 0 1\n' >a.stl
 printf '%080d\1\0\0\0%50s' 0 x >b.bin
@@ -120,7 +120,7 @@ qlux-recv|a.qlb|a blob
 what a board sends
 qlux-recv|a.png|a PNG picture
 what a board sends
-qlux-trade|a.qlb|a blob
+qlux-trade|blob.csv|a blob
 a table of tools/trade/trade.sh
 END
 
