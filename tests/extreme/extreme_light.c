@@ -403,7 +403,11 @@ static stats_moments_t light_at(
     stats_moments_t got = {0, 0, 0};
     ql_sampler_t sampler;
     ql_sum_t sum;
-    const ql_context_t context = {&scene, &s, &sampler, &sum, &diag};
+    const ql_context_t context = {.scene = &scene,
+            .settings = &s,
+            .sampler = &sampler,
+            .sum = &sum,
+            .diag = &diag};
     ql_vertex_t vertex;
 
     begin_vertex(&vertex, surface);
@@ -425,7 +429,11 @@ static void check_same_point(unsigned direct, uint32_t index)
     const ql_vec3_t below = vec(16004 * ONE, 16004 * ONE, 16001 * ONE);
     ql_sampler_t sampler;
     ql_sum_t sum = {{0, 0, 0}};
-    const ql_context_t context = {&scene, &s, &sampler, &sum, &diag};
+    const ql_context_t context = {.scene = &scene,
+            .settings = &s,
+            .sampler = &sampler,
+            .sum = &sum,
+            .diag = &diag};
     ql_emit_point_t point;
     ql_surface_t surface;
     ql_uniform2_t u;

@@ -229,7 +229,11 @@ static void trace_white(const ql_scene_t *scene, const ql_sampler_t *sampler,
     const ql_settings_t settings = {
             .direct = QL_DIRECT_AREA, .light_samples = 1};
     ql_diag_t diag = {0};
-    const ql_context_t context = {scene, &settings, sampler, sum, &diag};
+    const ql_context_t context = {.scene = scene,
+            .settings = &settings,
+            .sampler = sampler,
+            .sum = sum,
+            .diag = &diag};
     ql_vertex_t vertex = {.throughput = &one, .reflected = one};
 
     for (unsigned bounce = 0; bounce <= bounces; bounce++) {
