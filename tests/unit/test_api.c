@@ -304,6 +304,10 @@ TEST(lines_may_be_rendered_by_copies_of_a_render)
             (unsigned long)second.diag.paths);
     CHECK(memcmp(&first.diag, &second.diag, sizeof first.diag) == 0,
             "the counters differ");
+    CHECK(ql_render_init(&second, first.scene, &settings) == QL_OK &&
+                    second.diag.paths == 0,
+            "a second picture goes on with %lu paths",
+            (unsigned long)second.diag.paths);
 #endif
 }
 

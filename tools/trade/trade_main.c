@@ -161,7 +161,8 @@ static void refuse_options_of_scenes(const char *input)
             options_fail("'%s' is of a scene, not of a table", given[i]);
         }
     }
-    if (length < 4 || strcmp(input + length - 4, ".csv") != 0) {
+    if (strcmp(input, "-") != 0 &&
+            (length < 4 || strcmp(input + length - 4, ".csv") != 0)) {
         options_fail("'%s': expected .csv, .scene, .obj or .qlb", input);
     }
 }
