@@ -117,8 +117,8 @@ jobs_scripts := tools/make|tests/tools/test_make.sh; \
     tools/scene|tests/tools/scene/test_scene.sh; \
     tools/lines|tests/tools/scene/test_lines.sh; \
     tools/info|tests/tools/scene/test_info.sh; \
-    tools/sky    tools/choice|tests/tools/choose/test_choice.sh; \
-|tests/tools/scene/test_sky.sh; \
+    tools/sky|tests/tools/scene/test_sky.sh; \
+    tools/choice|tests/tools/choose/test_choice.sh; \
     tools/script|tests/tools/script/test_script.sh; \
     tools/bare|tests/tools/script/test_bare.sh; \
     tools/sight|tests/tools/script/test_sight.sh; \

@@ -9,6 +9,7 @@
 #include "support/built.h"
 #include "support/picture/estimate.h"
 #include "support/ql_points.h"
+#include "support/ql_table_error.h"
 #include "support/ql_test.h"
 #include "trace/ql_bvh.h"
 
@@ -293,10 +294,11 @@ TEST(a_plate_a_unit_from_a_lamp_or_from_the_floor_hides_the_lamp)
         const unsigned direct = directs[i];
         const bool drawn = i < 2;
 
-        if (!BUILT_HAS_DIRECT(direct)) {
+        /* Directions by coarse tables do not end where the lamp is. */
+        if (!BUILT_HAS_DIRECT(direct) ||
+                (direct == QL_DIRECT_SOLID_ANGLE && !TABLES_EXACT)) {
             continue;
         }
-
         for (int32_t beyond = 1; beyond <= 3; beyond++) {
             check_shadow(SQUARE_LAMP, LAMP + beyond, true, direct);
             check_shadow(SQUARE_LAMP, FLOOR - beyond, true, direct);
