@@ -46,6 +46,8 @@
 #include "blob/ql_blob_tree.c"
 
 #include "trace/ql_bvh.c"
+#include "trace/ql_hull.c"
+#include "trace/ql_hull_slanted.c"
 #include "trace/ql_order.c"
 #include "trace/ql_sphere.c"
 #include "trace/surface/ql_contact.c"

@@ -8,6 +8,7 @@
 #   BOARD_CORE   name of the CPU in the rows of make bench
 #   BOARD_OPT    optimisation, else -O2
 #   BOARD_LTO    1 for optimisation of the whole program
+#   BOARD_GATES  gates of the core that the board sets, as -DNAME=0
 #   BOARD_MCU    linker/<this>.ld has the memory
 #   BOARD_SRC    sources beside board.c and those of every board
 #   BOARD_STACK  bytes
@@ -52,17 +53,20 @@ ifneq ($(filter bench-board%,$(MAKECMDGOALS)),)
 include tests/bench/bench_board.mk
 endif
 
-# Whole-program optimisation; three passes of it that make code longer are off.
+# Whole-program optimisation; passes of it that make code longer are off, two of
+# them only where they do so.
 ifeq ($(LTO),1)
 board_lto := -flto -flto-partition=one -fno-move-loop-invariants \
-    -fno-tree-dominator-opts -fno-tree-loop-im
+    -fno-tree-dominator-opts -fno-tree-loop-im $(if $(filter \
+    1,$(SMALL)),,-fno-tree-ter -fno-reorder-blocks)
 endif
 
 board_cc := $(strip $(BOARD_CROSS)gcc $(BOARD_CPU) $(OPT) $(board_lto) \
     -std=c99 -pedantic -ffreestanding $(WARN) -Werror -ffunction-sections \
     -fdata-sections -fno-common -g -fno-asynchronous-unwind-tables \
     -fcallgraph-info=su -Ifirmware -Ihal -Ihal/boards/$(BOARD) -I. \
-    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' $(board_gates) $(CFLAGS_BOARD))
+    -DQL_CFG_FEATURES_HEADER='"$(BLOB).h"' $(board_gates) \
+    $(BOARD_GATES) $(CFLAGS_BOARD))
 board_cc_hal := $(board_cc) $(board_port)
 board_cc_main := $(board_cc_hal) $(board_main) $(board_bench) $(FLAGS_MAIN)
 board_gap := 0

@@ -24,7 +24,8 @@
             (uint32_t)(QL_CFG_TABLES ? QL_FEATURE_TABLES : 0) |                \
             (uint32_t)(QL_CFG_LENS ? QL_FEATURE_LENS : 0) |                    \
             (uint32_t)(QL_CFG_CONTACT ? QL_FEATURE_CONTACT : 0) |              \
-            (uint32_t)(QL_CFG_ORDER ? QL_FEATURE_ORDER : 0))
+            (uint32_t)(QL_CFG_ORDER ? QL_FEATURE_ORDER : 0) |                  \
+            (uint32_t)(QL_CFG_HULL ? QL_FEATURE_HULL : 0))
 
 /* Bytes of a header with these features, all of them built in. */
 static uint32_t header_bytes_of(uint32_t features)
@@ -112,7 +113,8 @@ static bool optional_open(ql_blob_parts_t *parts, ql_scene_t *scene)
            ql_blob_distributions_open(parts, scene) &&
            ql_blob_lens_open(parts, scene) &&
            ql_blob_contacts_open(parts, scene) &&
-           ql_blob_ranks_open(parts, scene) && ql_blob_sky_check(parts, scene);
+           ql_blob_ranks_open(parts, scene) &&
+           ql_blob_hull_open(parts, scene) && ql_blob_sky_check(parts, scene);
 }
 
 static ql_status_t parts_open(ql_scene_t *scene, const ql_blob_header_t *h)

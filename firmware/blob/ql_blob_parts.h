@@ -16,7 +16,7 @@
 #define QL_BLOB_HAS_OPTIONAL                                                   \
     (QL_CFG_SMOOTH || QL_GLOSS || QL_CFG_SPHERES || QL_CFG_SKY ||              \
             QL_CFG_SKY_MAP || QL_CFG_TABLES || QL_CFG_LENS ||                  \
-            QL_CFG_CONTACT || QL_CFG_ORDER)
+            QL_CFG_CONTACT || QL_CFG_ORDER || QL_CFG_HULL)
 
 /* What one part finds out for another, of a blob that is being opened. */
 typedef struct {
@@ -196,6 +196,52 @@ QL_INLINE bool ql_blob_ranks_open(ql_blob_parts_t *parts, ql_scene_t *scene)
 }
 #else
 QL_INLINE bool ql_blob_ranks_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    return (void)parts, (void)scene, true;
+}
+#endif
+
+/* The sides of a hull, which lead to triangles and nodes there are; parts,
+ * scene as above. A small build never reads them. */
+#if QL_CFG_HULL && !QL_CFG_SMALL
+QL_INLINE bool ql_blob_sides_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    bool valid;
+
+    scene->sides = ql_blob_optional(
+            parts, QL_FEATURE_HULL, sizeof *scene->sides, QL_TRI_MAX);
+    scene->side_count = (uint16_t)parts->count; /* <= QL_TRI_MAX */
+    /* the root has two children */
+    valid = scene->root_meta < 3 && scene->side_count > 0;
+    for (unsigned i = 0; i < scene->side_count; i++) {
+        valid = valid &&
+                QL_LE16(scene->sides[i].node) < 2 * parts->pair_count &&
+                (!QL_CFG_SLANTED || QL_LE16(scene->sides[i].triangle) <
+                                            parts->triangle_count);
+    }
+    return valid && parts->sound;
+}
+#else
+QL_INLINE bool ql_blob_sides_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    return (void)parts, (void)scene, true;
+}
+#endif
+
+/* The hull and its sides; parts, scene as above. */
+#if QL_CFG_HULL
+QL_INLINE bool ql_blob_hull_open(ql_blob_parts_t *parts, ql_scene_t *scene)
+{
+    scene->hull =
+            ql_blob_optional(parts, QL_FEATURE_HULL, sizeof *scene->hull, 1);
+    if (parts->count == 0) {
+        return (QL_LE32(parts->header->features) & QL_FEATURE_HULL) == 0;
+    }
+    scene->hull_first = QL_LE16(scene->hull->first);
+    return ql_blob_sides_open(parts, scene);
+}
+#else
+QL_INLINE bool ql_blob_hull_open(ql_blob_parts_t *parts, ql_scene_t *scene)
 {
     return (void)parts, (void)scene, true;
 }

@@ -44,7 +44,8 @@
     X(QL_FEATURE_TABLES, 12, "tables")                                         \
     X(QL_FEATURE_LENS, 13, "lens")                                             \
     X(QL_FEATURE_CONTACT, 14, "contact")                                       \
-    X(QL_FEATURE_ORDER, 15, "order")
+    X(QL_FEATURE_ORDER, 15, "order")                                           \
+    X(QL_FEATURE_HULL, 16, "hull")
 
 /* They are no enum, because an int may have 16 bits. */
 #define QL_FEATURE_NODE16    ((uint32_t)1 << 0)
@@ -63,6 +64,7 @@
 #define QL_FEATURE_LENS      ((uint32_t)1 << 13)
 #define QL_FEATURE_CONTACT   ((uint32_t)1 << 14)
 #define QL_FEATURE_ORDER     ((uint32_t)1 << 15)
+#define QL_FEATURE_HULL      ((uint32_t)1 << 16)
 
 /* The ways of finding light that qlux-scene chooses from, in the order of
  * trials. A trial is 16 log2 of variance times instructions over the best's. */
@@ -123,9 +125,11 @@ typedef struct {
     X(words, uint16_t, QL_FEATURE_TABLES)                                      \
     X(lens, ql_blob_lens_t, QL_FEATURE_LENS)                                   \
     X(contacts, uint16_t, QL_FEATURE_CONTACT)                                  \
-    X(ranks, uint16_t, QL_FEATURE_ORDER)
+    X(ranks, uint16_t, QL_FEATURE_ORDER)                                       \
+    X(hull, ql_blob_hull_t, QL_FEATURE_HULL)                                   \
+    X(sides, ql_blob_side_t, QL_FEATURE_HULL)
 
-enum { QL_BLOB_OPTIONAL_MAX = 10 }; /* entries of that list */
+enum { QL_BLOB_OPTIONAL_MAX = 12 }; /* entries of that list */
 
 /* A pinhole camera: origin and direction are affine in the picture's plane.
  * A point (x, y) of the plane, y up, |y| <= 1 and |x| <= width/height, has
@@ -245,6 +249,24 @@ typedef struct {
     uint32_t d[2][3];
 } ql_blob_lens_t;
 
+/* What has nothing of the scene behind it; one entry. The triangles from first
+ * on are the sides' and lie below the root's second child. */
+typedef struct {
+    uint16_t box[3][2]; /* x, y, z: grid units, {low, high}, inclusive: what is
+                           in it is in front of all sides; low > high: empty */
+    uint16_t first;     /* triangle of the first side */
+    uint16_t zero;
+} ql_blob_hull_t;
+
+/* A side of the hull: triangles of one plane, all that is below a node. Those
+ * of the next side have higher numbers. */
+typedef struct {
+    int16_t n[3];      /* of the plane, inwards, to nearest; the largest
+                          component in 2^13..2^14 */
+    uint16_t node;     /* 2 j or 2 j + 1: child of pair j */
+    uint16_t triangle; /* one of them */
+} ql_blob_side_t;
+
 /* An emitter: a triangle or sphere, or the sky. Light i is chosen for u0.32
  * numbers in [cum[i], cum[i+1]); past the last the bound is 2^32. */
 typedef struct {
@@ -269,6 +291,8 @@ QL_STATIC_ASSERT(sizeof(ql_blob_sky_t) == 24, ql_blob_sky_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_texel_t) == 4, ql_blob_texel_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_distribution_t) == 12, ql_blob_dist_size);
 QL_STATIC_ASSERT(sizeof(ql_blob_lens_t) == 72, ql_blob_lens_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_hull_t) == 16, ql_blob_hull_size);
+QL_STATIC_ASSERT(sizeof(ql_blob_side_t) == 10, ql_blob_side_size);
 
 /* A number as the blob has it: two words of s31.32, or a word of s1.30 with 16
  * fraction bits more. */

@@ -34,6 +34,10 @@ typedef struct ql_scene {
     QL_IF_BUILT(QL_CFG_LENS, const ql_blob_lens_t *lens;)
     QL_IF_BUILT(QL_CFG_CONTACT, const uint16_t *contacts;)
     QL_IF_BUILT(QL_CFG_ORDER, const uint16_t *ranks;)
+    QL_IF_BUILT(QL_CFG_HULL, const ql_blob_hull_t *hull;)
+    QL_IF_BUILT(QL_CFG_HULL, const ql_blob_side_t *sides;)
+    QL_IF_BUILT(QL_CFG_HULL, uint16_t side_count;)
+    QL_IF_BUILT(QL_CFG_HULL, uint16_t hull_first;) /* triangle; 0: no hull */
 } ql_scene_t;
 
 /* Corner i of a triangle, grid units. */
@@ -73,6 +77,19 @@ QL_INLINE bool ql_scene_two_sided(const ql_scene_t *scene)
 {
     return QL_CFG_TWO_SIDED && scene->two_sided;
 }
+
+/* How many sides the hull has. */
+#if QL_CFG_HULL
+QL_INLINE unsigned ql_scene_sides(const ql_scene_t *scene)
+{
+    return scene->side_count;
+}
+#else
+QL_INLINE unsigned ql_scene_sides(const ql_scene_t *scene)
+{
+    return (void)scene, 0;
+}
+#endif
 
 /* The material of a triangle. */
 QL_INLINE const ql_blob_material_t *ql_scene_material(

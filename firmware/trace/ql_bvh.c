@@ -27,6 +27,7 @@
 
 #include "base/ql_diag.h"
 #include "math/ql_real.h"
+#include "trace/ql_hull.h"
 #include "trace/ql_order.h"
 #include "trace/ql_sphere.h"
 #include "trace/ql_tri.h"
@@ -326,6 +327,23 @@ QL_FAST_INLINE int tri_hit(const ql_scene_t *scene, const ql_blob_tri_t *tri,
     return ql_tri_hit(scene, tri, ray, det, t);
 }
 
+/* t of a hit that is none. */
+#define NO_HIT 0xffffffffu
+
+/* Is a hit that was found before the nearest so far? */
+QL_INLINE bool is_before(
+        const ql_scene_t *scene, const ql_hit_t *found, const ql_hit_t *hit)
+{
+    if (ql_hull_is_last(scene, found)) {
+        return hit->t == NO_HIT ||
+               (ql_hull_is_last(scene, hit) && found->tri_idx < hit->tri_idx);
+    }
+    return ql_hull_is_last(scene, hit) ||
+           (ql_order_is_close(scene, found, hit)
+                           ? ql_order_is_before_exactly(scene, found, hit)
+                           : ql_order_is_before_as_rounded(found, hit));
+}
+
 /* Test the triangles and spheres of a leaf; shorten the ray to the nearest
  * hit. */
 QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
@@ -352,9 +370,7 @@ QL_INLINE void leaf_closest(const ql_scene_t *scene, const ql_ray_t *ray,
             found.tri_idx = (uint16_t)(tri - scene->triangles);
             found.front = side > 0;
             ql_order_keep(&found, t, det);
-            if (ql_order_is_close(scene, &found, hit)
-                            ? ql_order_is_before_exactly(scene, &found, hit)
-                            : ql_order_is_before_as_rounded(&found, hit)) {
+            if (is_before(scene, &found, hit)) {
                 *hit = found;
                 probe_shorten(p, found.t);
             }
@@ -434,15 +450,26 @@ QL_INLINE bool leaf_occluded(const ql_scene_t *scene, const ql_ray_t *ray,
     return false;
 }
 
+/* Where a ray goes on that has met nothing inside the hull. */
+QL_INLINE uint32_t leave(const ql_scene_t *scene, const ql_ray_t *ray,
+        const ql_hit_t *hit, unsigned *left)
+{
+    return hit != NULL && *left > 0 && hit->t == NO_HIT
+                   ? ql_hull_next(scene, ray, left)
+                   : QL_HULL_NO_NODE;
+}
+
 /* Walk the tree front to back. hit is NULL for an any-hit segment, which a
  * sphere at index but does not block. Returns true as soon as a segment is
- * blocked. */
+ * blocked. From inside the hull the first child of the root is walked; a ray
+ * that meets nothing there leaves through the hull's sides below the second. */
 QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
         ql_hit_t *hit, uint16_t but, end_t end, unsigned bits)
 {
     uint32_t stack[QL_CFG_BVH_STACK];
     uint32_t *top = stack;
     unsigned link = scene->root_link, meta = scene->root_meta;
+    unsigned left = 0; /* sides of the hull to leave through */
     uint32_t node;
     interval_t axes[3];
     probe_t p;
@@ -462,6 +489,10 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
     if (end == END_CLOSED) {
         probe_close(&p, axes, ray);
     }
+    if (ql_hull_has(scene, ray, hit == NULL)) {
+        left = ql_scene_sides(scene);
+        link = node_link(scene, 0, bits, &meta); /* the root's first child */
+    }
     for (;;) {
         if (meta < 3) {
             /* the far child waits; QL_CFG_BVH_STACK covers the checked depth */
@@ -473,10 +504,14 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
             } else if (leaf_occluded(scene, ray, but, end, link, meta - 3)) {
                 return true;
             }
-            if (top == stack) {
-                return false;
+            if (top != stack) {
+                node = *--top;
+            } else {
+                node = leave(scene, ray, hit, &left);
+                if (node == QL_HULL_NO_NODE) {
+                    return false;
+                }
             }
-            node = *--top;
         }
         for (;;) {
             if (box_hit(scene, node, bits, &p)) {
@@ -487,15 +522,17 @@ QL_FAST_INLINE bool walk(const ql_scene_t *scene, const ql_ray_t *ray,
                     break;
                 }
             }
-            if (top == stack) {
-                return false;
+            if (top != stack) {
+                node = *--top;
+            } else {
+                node = leave(scene, ray, hit, &left);
+                if (node == QL_HULL_NO_NODE) {
+                    return false;
+                }
             }
-            node = *--top;
         }
     }
 }
-
-#define NO_HIT 0xffffffffu
 
 bool ql_bvh_closest_hit(
         const ql_scene_t *scene, const ql_ray_t *ray, ql_hit_t *hit)

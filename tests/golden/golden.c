@@ -676,7 +676,8 @@ int main(int argc, char **argv)
         return puts(QL_CFG_NODE16 ? "16" : "8") == EOF;
     }
     if (argc == 2 && strcmp(argv[1], "contact") == 0) {
-        return puts(QL_CFG_CONTACT ? "" : "bare/") == EOF;
+        return printf("%s%s\n", QL_CFG_CONTACT ? "" : "bare/",
+                       QL_CFG_HULL ? "" : "open/") < 0;
     }
     if (argc == 2 && strcmp(argv[1], "tables") == 0) {
         return puts(TABLES) == EOF;

@@ -7,8 +7,9 @@
 # Writes DIR/16/NAME.qlb and DIR/8/NAME.qlb, the same scene with nodes of both
 # widths: the scenes of tests/scenes, and a corner of a room, once plain and
 # once with each feature alone, so that a build that lacks all others can draw
-# it. DIR/bare/ has all of them without contacts. DIR/digest.bin is some of them
-# in a row, as tests/matrix/digest_main.c reads them.
+# it. DIR/bare/ has all of them without contacts, DIR/open/ without a hull,
+# DIR/bare/open/ without either. DIR/digest.bin is some of them in a row, as
+# tests/matrix/digest_main.c reads them.
 #
 # Example: tests/golden/scenes.sh build/qlux-scene build/golden
 
@@ -114,16 +115,24 @@ corner map << 'END'
 sky corner.pfm rotate 30
 END
 
-# ---- The same without the table of contacts, for builds that have none ----
+# ---- The same without contacts or hull, for builds that have none ----
 
-# Where no point of a picture is near another surface, they draw the same.
-mkdir -p "$dir/bare/16" "$dir/bare/8"
-for blob in "$dir"/16/*.qlb "$dir"/8/*.qlb; do
-    name=${blob#"$dir/"}
-    "$scene" --dump "$blob" | sed '/^c /d; s/^\(features .*\) contact/\1/' \
-        > "$dir/bare/dump.txt"
-    "$scene" "$dir/bare/dump.txt" -o "$dir/bare/$name" --quiet
-done
+# without KEYS FEATURE FROM TO: the blobs of a folder without some lines
+without()
+{
+    mkdir -p "$4/16" "$4/8"
+    for blob in "$3"/16/*.qlb "$3"/8/*.qlb; do
+        "$scene" --dump "$blob" |
+            sed "/^$1 /d; s/^\(features .*\) $2/\1/" > "$4/dump.txt"
+        "$scene" "$4/dump.txt" -o "$4/${blob#"$3/"}" --quiet
+    done
+}
+
+# Where no point of a picture is near another surface, they draw the same; and
+# whether the hull is asked of first or not.
+without c contact "$dir" "$dir/bare"
+without 'hs*' hull "$dir" "$dir/open"
+without 'hs*' hull "$dir/bare" "$dir/bare/open"
 
 # ---- In a row, nodes of either width in turn ----
 

@@ -50,7 +50,7 @@ static void build(unsigned node_bits)
 #define ALL                                                                    \
     (QL_CFG_SMOOTH && QL_CFG_PHONG && QL_CFG_MIRROR && QL_CFG_GLASS &&         \
             QL_CFG_SPHERES && QL_CFG_SKY_MAP && QL_CFG_LENS &&                 \
-            QL_CFG_CONTACT && QL_CFG_ORDER)
+            QL_CFG_CONTACT && QL_CFG_ORDER && QL_CFG_HULL)
 
 /* A room with everything that is built in: spheres, smooth triangles, each
  * material, a map of the sky, a table of three dimensions, a lens. */
@@ -120,6 +120,7 @@ static void build_all(unsigned node_bits)
     }
     mini.contact = QL_CFG_CONTACT;
     mini.order = QL_CFG_ORDER;
+    mini.hull = QL_CFG_HULL && QL_CFG_SPHERES; /* else the root is a leaf */
     if (QL_CFG_LENS) {
         mini_lens(&mini, lens[0], lens[1]);
     }
@@ -177,6 +178,10 @@ static bool all_zero(const ql_scene_t *scene)
 #endif
 #if QL_CFG_ORDER
            && scene->ranks == NULL
+#endif
+#if QL_CFG_HULL
+           && scene->hull == NULL && scene->sides == NULL &&
+           scene->side_count == 0 && scene->hull_first == 0
 #endif
             ;
 }
@@ -787,75 +792,81 @@ TEST(every_rule_of_every_table_is_checked)
 {
     /* materials as written: Phong, mirror, glass, then diffuse ones */
     static const broken_t broken[] = {
-            {"as many normals as vertices", OPTIONAL_normals, COUNT, 4, 3},
-            {"no more gloss than materials", OPTIONAL_gloss, COUNT, 4, 6},
-            {"a kind", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, kind), 0},
-            {"a known kind", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, kind), 4},
-            {"zero is zero", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, zero), 1},
-            {"Ks <= 1", OPTIONAL_gloss, IN(ql_blob_gloss_t, 1, specular[2]),
-                    0x80000001u},
-            {"Kd + Ks <= 1", OPTIONAL_gloss,
-                    IN(ql_blob_gloss_t, 1, specular[0]), 0x7fffffffu},
-            {"chance <= 1", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, chance),
-                    0x80000001u},
-            {"a mirror has no exponent", OPTIONAL_gloss,
-                    IN(ql_blob_gloss_t, 1, parameter), 1},
-            {"glass always refracts", OPTIONAL_gloss,
-                    IN(ql_blob_gloss_t, 2, chance), 0x7fffffffu},
-            {"Ni >= 1/16", OPTIONAL_gloss, IN(ql_blob_gloss_t, 2, parameter),
-                    4095},
-            {"Ni <= 64", OPTIONAL_gloss, IN(ql_blob_gloss_t, 2, parameter),
-                    4194305},
-            {"glass has no Kd", CORE_materials,
-                    IN(ql_blob_material_t, 2, albedo[1]), 1},
-            {"a unit of radius", OPTIONAL_spheres,
-                    IN(ql_blob_sphere_t, 1, radius), 255},
-            {"not too large", OPTIONAL_spheres, IN(ql_blob_sphere_t, 0, radius),
-                    2000000 - 2047},
-            {"not past 0", OPTIONAL_spheres, IN(ql_blob_sphere_t, 1, centre[2]),
-                    256 + 2047},
-            {"not past the end", OPTIONAL_spheres,
-                    IN(ql_blob_sphere_t, 1, centre[0]), 32759 * 256 - 255},
-            {"one sky", OPTIONAL_sky, COUNT, 4, 0},
-            {"a wide map", OPTIONAL_sky, IN(ql_blob_sky_t, 0, width), 0},
-            {"a map of its size", OPTIONAL_sky, IN(ql_blob_sky_t, 0, height),
-                    3},
-            {"a table", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table), 3},
-            {"a table of its height", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table),
-                    1},
-            {"a table of its size", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table),
-                    0},
-            {"all texels", OPTIONAL_texels, COUNT, 4, 31},
-            {"exponents to 23", OPTIONAL_texels, IN(ql_blob_texel_t, 3, rgb9e5),
-                    24ul << 27},
-            {"1 to 3 dimensions", OPTIONAL_tables,
-                    IN(ql_blob_distribution_t, 0, dims), 4},
-            {"1 beyond them", OPTIONAL_tables,
-                    IN(ql_blob_distribution_t, 1, count[2]), 2},
-            {"rows among the words", OPTIONAL_tables,
-                    IN(ql_blob_distribution_t, 2, first), 33},
-            {"a first word", OPTIONAL_tables,
-                    IN(ql_blob_distribution_t, 0, first), 1000000},
-            {"all words", OPTIONAL_words, COUNT, 4, 67},
-            {"rows that are not empty", OPTIONAL_words, 0, 2, 0},
-            {"one lens", OPTIONAL_lens, COUNT, 4, 0},
-            {"a lens within reach", OPTIONAL_lens,
-                    IN(ql_blob_lens_t, 0, p[1][2][1]), 0x40000001u},
-            {"rays within reach", OPTIONAL_lens, IN(ql_blob_lens_t, 0, d[0][1]),
-                    0xbfffffffu},
-            {"a mark for each triangle", OPTIONAL_contacts, COUNT, 4, 0},
-            {"no mark more", OPTIONAL_contacts, COUNT, 4, 2},
-            {"a rank for each triangle", OPTIONAL_ranks, COUNT, 4, 5},
-            {"the sky is the last light", CORE_lights,
-                    IN(ql_blob_light_t, 1, triangle), 0},
-            {"lights in order", CORE_lights, IN(ql_blob_light_t, 0, triangle),
-                    65535},
-            {"a sphere there is", CORE_triangles,
-                    IN(ql_blob_tri_t, 0, vertex[0]), 4},
-            {"a sphere has one index", CORE_triangles,
-                    IN(ql_blob_tri_t, 0, vertex[2]), 1},
-            {"a sphere is on page 0", CORE_triangles,
-                    IN(ql_blob_tri_t, 0, material), 0x4000},
+        {"as many normals as vertices", OPTIONAL_normals, COUNT, 4, 3},
+        {"no more gloss than materials", OPTIONAL_gloss, COUNT, 4, 6},
+        {"a kind", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, kind), 0},
+        {"a known kind", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, kind), 4},
+        {"zero is zero", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, zero), 1},
+        {"Ks <= 1", OPTIONAL_gloss, IN(ql_blob_gloss_t, 1, specular[2]),
+                0x80000001u},
+        {"Kd + Ks <= 1", OPTIONAL_gloss, IN(ql_blob_gloss_t, 1, specular[0]),
+                0x7fffffffu},
+        {"chance <= 1", OPTIONAL_gloss, IN(ql_blob_gloss_t, 0, chance),
+                0x80000001u},
+        {"a mirror has no exponent", OPTIONAL_gloss,
+                IN(ql_blob_gloss_t, 1, parameter), 1},
+        {"glass always refracts", OPTIONAL_gloss,
+                IN(ql_blob_gloss_t, 2, chance), 0x7fffffffu},
+        {"Ni >= 1/16", OPTIONAL_gloss, IN(ql_blob_gloss_t, 2, parameter), 4095},
+        {"Ni <= 64", OPTIONAL_gloss, IN(ql_blob_gloss_t, 2, parameter),
+                4194305},
+        {"glass has no Kd", CORE_materials,
+                IN(ql_blob_material_t, 2, albedo[1]), 1},
+        {"a unit of radius", OPTIONAL_spheres, IN(ql_blob_sphere_t, 1, radius),
+                255},
+        {"not too large", OPTIONAL_spheres, IN(ql_blob_sphere_t, 0, radius),
+                2000000 - 2047},
+        {"not past 0", OPTIONAL_spheres, IN(ql_blob_sphere_t, 1, centre[2]),
+                256 + 2047},
+        {"not past the end", OPTIONAL_spheres,
+                IN(ql_blob_sphere_t, 1, centre[0]), 32759 * 256 - 255},
+        {"one sky", OPTIONAL_sky, COUNT, 4, 0},
+        {"a wide map", OPTIONAL_sky, IN(ql_blob_sky_t, 0, width), 0},
+        {"a map of its size", OPTIONAL_sky, IN(ql_blob_sky_t, 0, height), 3},
+        {"a table", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table), 3},
+        {"a table of its height", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table), 1},
+        {"a table of its size", OPTIONAL_sky, IN(ql_blob_sky_t, 0, table), 0},
+        {"all texels", OPTIONAL_texels, COUNT, 4, 31},
+        {"exponents to 23", OPTIONAL_texels, IN(ql_blob_texel_t, 3, rgb9e5),
+                24ul << 27},
+        {"1 to 3 dimensions", OPTIONAL_tables,
+                IN(ql_blob_distribution_t, 0, dims), 4},
+        {"1 beyond them", OPTIONAL_tables,
+                IN(ql_blob_distribution_t, 1, count[2]), 2},
+        {"rows among the words", OPTIONAL_tables,
+                IN(ql_blob_distribution_t, 2, first), 33},
+        {"a first word", OPTIONAL_tables, IN(ql_blob_distribution_t, 0, first),
+                1000000},
+        {"all words", OPTIONAL_words, COUNT, 4, 67},
+        {"rows that are not empty", OPTIONAL_words, 0, 2, 0},
+        {"one lens", OPTIONAL_lens, COUNT, 4, 0},
+        {"a lens within reach", OPTIONAL_lens,
+                IN(ql_blob_lens_t, 0, p[1][2][1]), 0x40000001u},
+        {"rays within reach", OPTIONAL_lens, IN(ql_blob_lens_t, 0, d[0][1]),
+                0xbfffffffu},
+        {"a mark for each triangle", OPTIONAL_contacts, COUNT, 4, 0},
+        {"no mark more", OPTIONAL_contacts, COUNT, 4, 2},
+        {"a rank for each triangle", OPTIONAL_ranks, COUNT, 4, 5},
+        {"one hull", OPTIONAL_hull, COUNT, 4, 0},
+        {"no hull more", OPTIONAL_hull, COUNT, 4, 2},
+        {"the sky is the last light", CORE_lights,
+                IN(ql_blob_light_t, 1, triangle), 0},
+        {"lights in order", CORE_lights, IN(ql_blob_light_t, 0, triangle),
+                65535},
+#if !QL_CFG_SMALL
+        {"a node there is", OPTIONAL_sides, IN(ql_blob_side_t, 0, node), 6},
+        {"all sides", OPTIONAL_sides, COUNT, 4, 65536},
+#endif
+#if QL_CFG_SLANTED && !QL_CFG_SMALL
+        {"a side's triangle there is", OPTIONAL_sides,
+                IN(ql_blob_side_t, 0, triangle), 6},
+#endif
+        {"a sphere there is", CORE_triangles, IN(ql_blob_tri_t, 0, vertex[0]),
+                4},
+        {"a sphere has one index", CORE_triangles,
+                IN(ql_blob_tri_t, 0, vertex[2]), 1},
+        {"a sphere is on page 0", CORE_triangles,
+                IN(ql_blob_tri_t, 0, material), 0x4000},
     };
     const size_t count = sizeof broken / sizeof broken[0];
 

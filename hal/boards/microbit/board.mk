@@ -5,6 +5,7 @@ BOARD_CPU := -mcpu=cortex-m0 -mthumb
 BOARD_CORE := cortex-m0
 BOARD_OPT := -Os
 BOARD_LTO := 1
+BOARD_GATES := -DQL_CFG_SLANTED=0
 BOARD_MCU := nrf51822
 BOARD_SRC := hal/cpu/ql_cortexm.c
 BOARD_STACK := 3072

@@ -952,7 +952,8 @@ static uint32_t features_of(const mini_scene_t *m, unsigned lights)
             (m->table_count ? (uint32_t)QL_FEATURE_TABLES : 0u) |
             (m->has_lens ? (uint32_t)QL_FEATURE_LENS : 0u) |
             (m->contact ? (uint32_t)QL_FEATURE_CONTACT : 0u) |
-            (m->order ? (uint32_t)QL_FEATURE_ORDER : 0u);
+            (m->order ? (uint32_t)QL_FEATURE_ORDER : 0u) |
+            (m->hull ? (uint32_t)QL_FEATURE_HULL : 0u);
 
     for (unsigned i = 0; i < m->material_count; i++) {
         switch (m->materials[i].gloss) {
@@ -1121,6 +1122,20 @@ static void put_more(writer_t *w, tables_t *tables, unsigned gloss)
         for (unsigned i = 0; i < m->triangle_count; i++) {
             put(w, m->triangles[i].rank, 2);
         }
+    }
+    if (wanted(w, tables, OPTIONAL_hull, QL_FEATURE_HULL, 1)) {
+        for (unsigned i = 0; i < 6; i++) {
+            put(w, i % 2 ? 0 : QL_GRID_MAX, 2); /* an empty box */
+        }
+        put(w, m->triangle_count, 2);
+        put(w, 0, 2);
+    }
+    if (wanted(w, tables, OPTIONAL_sides, QL_FEATURE_HULL, 1)) {
+        put(w, 16384, 2);
+        put(w, 0, 2);
+        put(w, 0, 2);
+        put(w, 1, 2); /* the root's second child */
+        put(w, 0, 2);
     }
 }
 

@@ -54,6 +54,7 @@ typedef struct {
     bool two_sided;         /* emitters */
     bool contact;           /* every face may touch another */
     bool order;             /* faces have ranks: the order of their making */
+    bool hull;              /* one that no triangle and no position is of */
 
     /* Faults to plant: what a broken light table would say. */
     double light_weight_scale; /* 1 unless set */

@@ -69,7 +69,7 @@ static inline void build_with(
     (void)gain_faces(grid, world);
     smooth_corners(grid, world);
     bvh_build(bvh, grid, 4, &cost, true);
-    compile_model(model, world, grid, bvh, 16);
+    compile_model(model, world, grid, bvh, NULL, 16);
 }
 
 static inline void build(model_t *model, grid_t *grid, const world_t *world)

@@ -25,9 +25,9 @@ typedef enum { WITH_ALL, WITH_8_BITS, WITH_CONSTANT_SKY } scene_kind_t;
 static mini_scene_t mini;
 
 /* One triangle and one sphere that shine and two that do not, each gloss, a
- * map of the sky, tables, a lens, contacts, ranks. Entries are in the order of
- * their making but for triangles, which the tree sorts, and materials, glossy
- * ones first. */
+ * map of the sky, tables, a lens, contacts, ranks, a hull. Entries are in the
+ * order of their making but for triangles, which the tree sorts, and materials,
+ * glossy ones first. */
 static void build(scene_kind_t kind)
 {
     static const int32_t ball[2][3] = {
@@ -74,6 +74,7 @@ static void build(scene_kind_t kind)
     mini_lens(&mini, lens[0], lens[1]);
     mini.contact = true;
     mini.order = true;
+    mini.hull = true;
     mini_field(&mini, right, up);
     mini_open(&mini, &scene);
 }
@@ -384,6 +385,15 @@ static const rule_t rules[] = {
 
         FREE("contacts", "word"),
         FREE("ranks", "word"),
+
+        FREE("hull", "box[0]"),
+        FREE("hull", "box[1]"),
+        FREE("hull", "box[2]"),
+        FREE("hull", "first"),
+        FREE("hull", "zero"),
+        FREE("sides", "n"),
+        EDGE("sides", "node", 0, 5, 6),
+        EDGE("sides", "triangle", 0, 3, 4),
 };
 enum { RULES = sizeof rules / sizeof rules[0] };
 
@@ -654,13 +664,13 @@ TEST(tables_have_no_more_entries_than_the_format_allows)
         const char *name;
         uint32_t most;
     } most[] = {{"triangles", QL_TRI_MAX}, {"materials", QL_MATERIAL_MAX},
-            {"spheres", QL_TRI_MAX}, {"tables", 65535}};
+            {"spheres", QL_TRI_MAX}, {"tables", 65535}, {"sides", QL_TRI_MAX}};
     static const struct {
         const char *name;
         uint32_t exact;
     } exact[] = {{"camera", 1}, {"vertices", 7}, {"normals", 7}, {"pairs16", 3},
             {"sky", 1}, {"texels", 32}, {"lens", 1}, {"contacts", 1},
-            {"ranks", 4}};
+            {"ranks", 4}, {"hull", 1}};
 
     tried = 0;
     for (unsigned i = 0; i < sizeof most / sizeof most[0]; i++) {
@@ -680,6 +690,7 @@ TEST(tables_have_no_more_entries_than_the_format_allows)
     check_count("lights", 0, QL_ERR_RANGE);
     check_count("tables", 1, QL_ERR_RANGE); /* the sky's is the last */
     check_count("words", 49, QL_ERR_RANGE);
+    check_count("sides", 0, QL_ERR_RANGE);
     NOTE("%lu tables", tried);
 }
 
@@ -698,7 +709,7 @@ TEST(features_are_those_that_the_blob_has)
         const uint32_t free_ones = QL_FEATURE_TWO_SIDED | QL_FEATURE_PAGES;
         const uint32_t same_header = kinds | QL_FEATURE_LIGHTS |
                                      QL_FEATURE_NODE16 | QL_FEATURE_NODE8;
-        const ql_status_t wanted = bit > 15                ? QL_ERR_FEATURE
+        const ql_status_t wanted = bit > 16                ? QL_ERR_FEATURE
                                    : feature & free_ones   ? QL_OK
                                    : feature & same_header ? QL_ERR_RANGE
                                                            : QL_ERR_VERSION;
@@ -735,7 +746,7 @@ TEST(tables_that_others_need_cannot_be_left_out)
             {"spheres", NULL, true}, {"sky", NULL, true},
             {"texels", NULL, true}, {"tables", "words", true},
             {"lens", NULL, false}, {"contacts", NULL, false},
-            {"ranks", NULL, false}};
+            {"ranks", NULL, false}, {"hull", "sides", false}};
 
     for (unsigned i = 0; i < sizeof optional / sizeof optional[0]; i++) {
         const blob_table_t *const table = table_of(optional[i].name);
@@ -762,6 +773,9 @@ TEST(a_root_is_a_leaf_of_at_most_13_triangles)
         ql_status_t got;
 
         take_copy(WITH_ALL);
+        leave_out(table_of("sides")); /* a hull needs two children */
+        header()->features |= QL_FEATURE_HULL;
+        leave_out(table_of("hull"));
         grow(table_of("triangles"), 20);
         place = place_of(table_of("pairs16"));
         place->count = 0;

@@ -23,6 +23,9 @@
     X(boxes, "boxes that they test")                                           \
     X(triangles, "triangles that they test")                                   \
     X(spheres, "spheres that they test")                                       \
+    X(places, "positions asked whether they are inside the hull")              \
+    X(slants, "slanted sides that such a position is compared with")           \
+    X(sides, "sides of the hull that a ray might leave through")               \
     X(hits, "hits of rays, the nearest so far or not")                         \
     X(vertices, "places that reflect: point, lobes, next direction")           \
     X(glossy, "those that are not diffuse alone")                              \

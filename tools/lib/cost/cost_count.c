@@ -21,6 +21,9 @@
 #define ql_emitted_add           counted_emitted_add
 #define ql_emitted_by_hit        counted_emitted_by_hit
 #define ql_emitted_by_sky        counted_emitted_by_sky
+#define ql_hull_has              counted_hull_has
+#define ql_hull_is_before_sides  counted_hull_is_before_sides
+#define ql_hull_next             counted_hull_next
 #define ql_mis_weight            counted_mis_weight
 #define ql_mis_weight_of_ray     counted_mis_weight_of_ray
 #define ql_next_event            counted_next_event
@@ -41,6 +44,8 @@
 static cost_events_t *counting;
 
 #include "trace/ql_bvh.c"
+#include "trace/ql_hull.c"
+#include "trace/ql_hull_slanted.c"
 #include "trace/surface/ql_smooth.c"
 #include "trace/surface/ql_surface_at.c"
 

@@ -127,6 +127,18 @@ enum {
     F(T, d[0], X32, 3, "da", 1, "a direction")                                 \
     F(T, d[1], X32, 3, "db", 1, "a direction")
 
+#define HULL(F, P, T)                                                          \
+    F(T, box[0], U16, 2, "h", 1, "a bound")                                    \
+    F(T, box[1], U16, 2, NULL, 2, "a bound")                                   \
+    F(T, box[2], U16, 2, NULL, 2, "a bound")                                   \
+    F(T, first, U16, 1, NULL, 2, "the first triangle")                         \
+    F(T, zero, U16, 1, NULL, 0, NULL)
+
+#define SIDE(F, P, T)                                                          \
+    F(T, n, S16, 3, "hs", 1, "the normal")                                     \
+    F(T, node, U16, 1, NULL, 2, "the node")                                    \
+    F(T, triangle, U16, 1, NULL, 1, "a triangle")
+
 /* ---- their rows ---- */
 
 #define FIELD(type, member, number, n, text, blanks, called)                   \
@@ -175,6 +187,8 @@ ROWS(sky, SKY, ql_blob_sky_t);
 ROWS(texels, TEXEL, ql_blob_texel_t);
 ROWS(tables, DISTRIBUTION, ql_blob_distribution_t);
 ROWS(lens, LENS, ql_blob_lens_t);
+ROWS(hull, HULL, ql_blob_hull_t);
+ROWS(sides, SIDE, ql_blob_side_t);
 
 /* A word is no struct, but a number by itself. */
 #define WORD_ROW(text, called)                                                 \
@@ -269,6 +283,12 @@ const blob_table_t blob_tables[BLOB_TABLE_COUNT] = {
         TABLE(ranks, uint16_t, .repeat = 1, .per_line = 8, .count_min = 1,
                 .count_max = QL_TRI_MAX,
                 .title = "ranks: one for each triangle"),
+        TABLE(hull, ql_blob_hull_t, .repeat = 1, .per_line = 1, .count_min = 1,
+                .count_max = 1,
+                .title = "hull: low and high of x, y, z, first triangle"),
+        TABLE(sides, ql_blob_side_t, .repeat = 1, .per_line = 1, .count_min = 1,
+                .count_max = QL_TRI_MAX,
+                .title = "sides: normal, node, triangle"),
 };
 
 bool blob_has_table(const blob_table_t *table, uint32_t features)

@@ -91,7 +91,8 @@ static const int order[] = {BLOB_TABLE_camera, BLOB_TABLE_lens,
         BLOB_TABLE_pairs16, BLOB_TABLE_pairs8, BLOB_TABLE_materials,
         BLOB_TABLE_lights, BLOB_TABLE_gloss, BLOB_TABLE_spheres, BLOB_TABLE_sky,
         BLOB_TABLE_texels, BLOB_TABLE_tables, BLOB_TABLE_words,
-        BLOB_TABLE_contacts, BLOB_TABLE_ranks};
+        BLOB_TABLE_contacts, BLOB_TABLE_ranks, BLOB_TABLE_hull,
+        BLOB_TABLE_sides};
 
 QL_STATIC_ASSERT(sizeof order / sizeof *order == BLOB_TABLE_COUNT,
         each_table_has_its_place_in_a_dump);

@@ -23,6 +23,7 @@
 #include "scene/mesh/nodes.h"
 #include "scene/mesh/smooth.h"
 #include "scene/touch/contacts.h"
+#include "scene/touch/hull.h"
 #include "scene/touch/joints.h"
 #include "scene/touch/ranks.h"
 #include "scene/world/extent.h"
@@ -214,6 +215,29 @@ static void place_ranks(model_t *model, const grid_t *grid, const bvh_t *bvh)
     model->ranks_count = model->ranks != NULL ? grid->face_count : 0;
 }
 
+/* Say what has nothing of the scene behind it, if anything has. */
+static void place_hull(model_t *model, const bvh_t *bvh, const hull_t *hull)
+{
+    uint32_t at = 0;
+
+    if (hull == NULL || hull->part == NULL) {
+        return;
+    }
+    model->hull = cli_alloc(1, sizeof *model->hull);
+    model->hull_count = 1;
+    *model->hull = hull->box;
+    model->sides = cli_alloc(hull->side_count, sizeof *model->sides);
+    model->sides_count = hull->side_count;
+    memcpy(model->sides, hull->sides, hull->side_count * sizeof *model->sides);
+    for (uint32_t i = 0; i < hull->side_count; i++) {
+        while (hull->part[bvh->order[at]] != i + 1) {
+            at++;
+        }
+        model->sides[i].node = (uint16_t)hull->nodes[i];
+        model->sides[i].triangle = (uint16_t)at; /* the side's first */
+    }
+}
+
 /* Do surfaces emit, not just the sky? */
 static bool has_emitters(const model_t *model)
 {
@@ -256,6 +280,7 @@ static uint32_t find_features(const model_t *model)
     features |= model->lens_count > 0 ? QL_FEATURE_LENS : 0;
     features |= model->contacts_count > 0 ? QL_FEATURE_CONTACT : 0;
     features |= model->ranks_count > 0 ? QL_FEATURE_ORDER : 0;
+    features |= model->hull_count > 0 ? QL_FEATURE_HULL : 0;
     return features | find_gloss_features(model) | find_sky_features(model);
 }
 
@@ -282,7 +307,7 @@ static void fill_header(
 }
 
 void compile_model(model_t *model, const world_t *world, const grid_t *grid,
-        const bvh_t *bvh, unsigned node_bits)
+        const bvh_t *bvh, const hull_t *hull, unsigned node_bits)
 {
     memset(model, 0, sizeof *model);
     model->camera = cli_alloc(1, sizeof *model->camera);
@@ -300,6 +325,7 @@ void compile_model(model_t *model, const world_t *world, const grid_t *grid,
     place_nodes(model, bvh, node_bits);
     place_contacts(model, grid, bvh);
     place_ranks(model, grid, bvh);
+    place_hull(model, bvh, hull);
     fill_header(model, world, grid);
     choice_make(model);
 }
@@ -386,6 +412,8 @@ void compile_scene(
         model_t *model, world_t *world, const compile_options_t *options)
 {
     const size_t cuts = joints_split(world);
+    bvh_apart_t apart;
+    hull_t hull;
     grid_t grid;
     bvh_t bvh;
 
@@ -396,12 +424,15 @@ void compile_scene(
     report_losses(&grid, world);
     report_gain(&grid, gain_faces(&grid, world));
     smooth_corners(&grid, world);
-    bvh_build(&bvh, &grid, options->leaf_max,
+    hull_find(&hull, &grid);
+    apart = hull_apart(&hull);
+    bvh_build_apart(&bvh, &grid, &apart, options->leaf_max,
             options->node_bits == 16 ? &cost16 : &cost8, options->quiet);
-    compile_model(model, world, &grid, &bvh, options->node_bits);
+    compile_model(model, world, &grid, &bvh, &hull, options->node_bits);
     report_darkness(model, world);
     faint_report(model, world, &grid, &bvh);
     report_views(model, world, &grid, &bvh);
     bvh_free(&bvh);
+    hull_free(&hull);
     grid_free(&grid);
 }

@@ -7,6 +7,7 @@
 #include "scene/blob/model.h"
 #include "scene/mesh/bvh.h"
 #include "scene/mesh/grid.h"
+#include "scene/touch/hull.h"
 #include "scene/world/world.h"
 
 #define COMPILE_LEAF8_MAX 12 /* 3 + n must fit the nibble of an 8-bit node */
@@ -36,12 +37,13 @@ void compile_scene(
  *   world      -        the scene
  *   grid       -        the same, on its grid, its corners smooth
  *   bvh        -        tree over the grid
+ *   hull       -        what it has apart; NULL for nothing
  *   node_bits  8 or 16
  *
  * Fails: exit 2 for a camera too far away, a lens too wide, too many materials,
  *        lights or table words, or a sky too dim beside its lights.
  */
 void compile_model(model_t *model, const world_t *world, const grid_t *grid,
-        const bvh_t *bvh, unsigned node_bits);
+        const bvh_t *bvh, const hull_t *hull, unsigned node_bits);
 
 #endif

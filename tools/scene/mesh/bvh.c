@@ -144,13 +144,9 @@ static void sweep(const builder_t *b, int axis, uint32_t first, uint32_t n,
     }
 }
 
-/* Keep both parts of a range in order along every axis. */
-static void partition(
-        builder_t *b, const split_t *split, uint32_t first, uint32_t n)
+/* Divide a range by is_upper, both parts in order along every axis. */
+static void divide(builder_t *b, uint32_t first, uint32_t n)
 {
-    for (uint32_t i = 0; i < n; i++) {
-        b->is_upper[b->sorted[split->axis][first + i]] = i >= split->count;
-    }
     for (int k = 0; k < 3; k++) {
         uint32_t *faces = b->sorted[k] + first;
         uint32_t lower = 0, upper = 0;
@@ -166,6 +162,15 @@ static void partition(
     }
 }
 
+static void partition(
+        builder_t *b, const split_t *split, uint32_t first, uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        b->is_upper[b->sorted[split->axis][first + i]] = i >= split->count;
+    }
+    divide(b, first, n);
+}
+
 static void make_leaf(
         builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n)
 {
@@ -178,13 +183,10 @@ static void make_leaf(
     }
 }
 
-/* Build the subtree of n sorted faces; levels may lie below its root. */
-static void build(builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n,
-        unsigned levels, unsigned depth)
+/* Set a node's box to that of n sorted faces; returns its measure. */
+static uint64_t bound(
+        const builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n)
 {
-    split_t best = {UINT64_MAX, 0, UINT32_MAX, 0};
-    uint64_t area;
-    uint32_t pair;
     box_t box;
 
     empty_box(&box);
@@ -193,7 +195,17 @@ static void build(builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n,
     }
     memcpy(node->low, box.low, sizeof node->low);
     memcpy(node->high, box.high, sizeof node->high);
-    area = measure_box(&box);
+    return measure_box(&box);
+}
+
+/* Build the subtree of n sorted faces; levels may lie below its root. */
+static void build(builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n,
+        unsigned levels, unsigned depth)
+{
+    split_t best = {UINT64_MAX, 0, UINT32_MAX, 0};
+    const uint64_t area = bound(b, node, first, n);
+    uint32_t pair;
+
     if (depth > b->bvh->depth) {
         b->bvh->depth = depth;
     }
@@ -215,8 +227,87 @@ static void build(builder_t *b, bvh_node_t *node, uint32_t first, uint32_t n,
             levels - 1, depth + 1);
 }
 
+/* The axis along which the first child of a pair is the farthest below the
+ * second. */
+static uint32_t axis_between(const bvh_node_t pair[2])
+{
+    uint32_t axis = 0;
+    int most = INT32_MIN;
+
+    for (uint32_t k = 0; k < 3; k++) {
+        const int way = pair[1].low[k] + pair[1].high[k] - pair[0].low[k] -
+                        pair[0].high[k];
+
+        if (way > most) {
+            most = way;
+            axis = k;
+        }
+    }
+    return axis;
+}
+
+/* Build what has the parts first to last of a range, below a node. */
+static void build_parts(builder_t *b, const bvh_apart_t *apart, uint32_t node,
+        unsigned first, unsigned last, uint32_t from, unsigned depth)
+{
+    bvh_node_t *at = &b->bvh->pairs[node / 2][node % 2];
+    const unsigned middle = (first + last) / 2;
+    uint32_t count = 0, lower = 0;
+
+    for (uint32_t i = from; i < b->grid->face_count; i++) {
+        const unsigned part = apart->part[b->sorted[0][i]];
+
+        count += part <= last;
+        lower += part <= middle;
+    }
+    if (first == last) {
+        apart->nodes[first - 1] = node;
+        build(b, at, from, count, QL_DEPTH_MAX - depth, depth);
+        return;
+    }
+    (void)bound(b, at, from, count);
+    at->link = b->bvh->pair_count++;
+    build_parts(b, apart, 2 * at->link, first, middle, from, depth + 1);
+    build_parts(b, apart, 2 * at->link + 1, middle + 1, last, from + lower,
+            depth + 1);
+    at->meta = axis_between(b->bvh->pairs[at->link]);
+}
+
+/* Build the root's two children: all faces but those apart, and these. */
+static void build_root(builder_t *b, const bvh_apart_t *apart)
+{
+    const uint32_t n = b->grid->face_count;
+    bvh_node_t *root = &b->bvh->root;
+    uint32_t from = 0;
+
+    for (unsigned part = 0; part <= apart->count; part++) {
+        const uint32_t first = from;
+
+        for (uint32_t i = 0; i < n; i++) {
+            b->is_upper[i] = apart->part[i] > part;
+            from += apart->part[i] == part;
+        }
+        divide(b, first, n - first); /* those of part come first */
+    }
+    from = 0;
+    while (apart->part[b->sorted[0][from]] == 0) {
+        from++;
+    }
+    (void)bound(b, root, 0, n);
+    root->link = b->bvh->pair_count++;
+    build(b, &b->bvh->pairs[0][0], 0, from, QL_DEPTH_MAX - 1, 1);
+    build_parts(b, apart, 1, 1, apart->count, from, 1);
+    root->meta = axis_between(b->bvh->pairs[0]);
+}
+
 void bvh_build(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
         const bvh_cost_t *cost, bool quiet)
+{
+    bvh_build_apart(bvh, grid, NULL, leaf_max, cost, quiet);
+}
+
+void bvh_build_apart(bvh_t *bvh, const grid_t *grid, const bvh_apart_t *apart,
+        unsigned leaf_max, const bvh_cost_t *cost, bool quiet)
 {
     const uint32_t n = grid->face_count;
     builder_t b = {0};
@@ -239,7 +330,11 @@ void bvh_build(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
         b.sorted[k] = cli_alloc(n, sizeof *b.sorted[k]);
         sort_axis(&b, k);
     }
-    build(&b, &bvh->root, 0, n, QL_DEPTH_MAX, 0);
+    if (apart != NULL && apart->count > 0) {
+        build_root(&b, apart);
+    } else {
+        build(&b, &bvh->root, 0, n, QL_DEPTH_MAX, 0);
+    }
     /* after the last partition all axes agree on who is in which leaf */
     bvh->order = b.sorted[0];
     free(b.sorted[1]);

@@ -48,6 +48,23 @@ typedef struct {
 void bvh_build(bvh_t *bvh, const grid_t *grid, unsigned leaf_max,
         const bvh_cost_t *cost, bool quiet);
 
+#define BVH_PARTS_MAX 16
+
+/* Faces that are kept apart from the others, in parts. */
+typedef struct {
+    const uint8_t *part; /* of each face; 0: not apart, as one is at least */
+    unsigned count;      /* parts 1 to count, each of a face or more */
+    uint32_t *nodes;     /* out: 2 j or 2 j + 1, child of pair j */
+} bvh_apart_t;
+
+/* The same with some faces apart below the root's second child, where each part
+ * is all that is below a node. They are the last ones of order, part by part.
+ *
+ *   apart  -  NULL for none
+ */
+void bvh_build_apart(bvh_t *bvh, const grid_t *grid, const bvh_apart_t *apart,
+        unsigned leaf_max, const bvh_cost_t *cost, bool quiet);
+
 void bvh_free(bvh_t *bvh);
 
 #endif

@@ -40,8 +40,7 @@ static bool is_beyond(const grid_t *grid, const grid_face_t *face,
     return false;
 }
 
-/* Do two triangles of one plane have an area in common? */
-static bool do_overlap(
+bool ranks_do_overlap(
         const grid_t *grid, const grid_face_t *a, const grid_face_t *b)
 {
     int64_t n[3], m[3];
@@ -158,7 +157,7 @@ static bool overlaps_any(const grid_t *grid, const bvh_t *bvh,
     around_begin(&walk, grid, bvh, box_around(grid, face, 0));
     while ((other = around_next(&walk)) != NULL) {
         if (other != face && planes[other - grid->faces] == plane &&
-                (face->sphere != 0 || do_overlap(grid, face, other))) {
+                (face->sphere != 0 || ranks_do_overlap(grid, face, other))) {
             return true;
         }
     }

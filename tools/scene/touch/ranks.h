@@ -19,4 +19,8 @@
  */
 uint16_t *ranks_find(const grid_t *grid, const bvh_t *bvh);
 
+/* Do two triangles of one plane have an area in common? */
+bool ranks_do_overlap(
+        const grid_t *grid, const grid_face_t *a, const grid_face_t *b);
+
 #endif
