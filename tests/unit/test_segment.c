@@ -294,9 +294,11 @@ TEST(a_plate_a_unit_from_a_lamp_or_from_the_floor_hides_the_lamp)
         const unsigned direct = directs[i];
         const bool drawn = i < 2;
 
-        /* Directions by coarse tables do not end where the lamp is. */
+        /* Directions of a solid angle or of a sphere's cone, by coarse tables,
+         * do not end where the lamp is. */
         if (!BUILT_HAS_DIRECT(direct) ||
-                (direct == QL_DIRECT_SOLID_ANGLE && !TABLES_EXACT)) {
+                (!TABLES_EXACT && (direct == QL_DIRECT_SOLID_ANGLE ||
+                                          direct == QL_DIRECT_MIS))) {
             continue;
         }
         for (int32_t beyond = 1; beyond <= 3; beyond++) {
