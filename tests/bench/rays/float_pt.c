@@ -232,6 +232,33 @@ static void convert_camera(fp_camera_t *camera, const ql_blob_camera_t *from)
     camera->du = convert_narrow(from->towards[QL_CAMERA_UP]);
 }
 
+/* The first child of the root is what lies inside the hull. */
+#if QL_CFG_HULL
+static void convert_hull(fp_scene_t *fp, const ql_scene_t *scene)
+{
+    for (unsigned i = 0; i < 6; i++) {
+        fp->hull_box[i] =
+                scene->hull_first == 0
+                        ? 0.0f
+                        : (float)QL_LE16(scene->hull->box[i / 2][i % 2]);
+    }
+    if (scene->hull_first == 0) {
+        return;
+    }
+    fp->inner_link = fp->pairs[fp->root_link].link[0];
+    fp->inner_count = fp->pairs[fp->root_link].count[0];
+    fp->hull_first = scene->hull_first;
+}
+#else
+static void convert_hull(fp_scene_t *fp, const ql_scene_t *scene)
+{
+    (void)scene;
+    for (unsigned i = 0; i < 6; i++) {
+        fp->hull_box[i] = 0.0f;
+    }
+}
+#endif
+
 void fp_open(fp_scene_t *fp, const ql_scene_t *scene, void *memory)
 {
     const ql_blob_header_t *h = scene->header;
@@ -270,6 +297,9 @@ void fp_open(fp_scene_t *fp, const ql_scene_t *scene, void *memory)
     fp->root_link = scene->root_link;
     fp->root_count =
             (uint16_t)(scene->root_meta < 3 ? 0 : scene->root_meta - 3);
+    fp->hull_first = tri_count;
+    fp->tri_count = tri_count;
+    convert_hull(fp, scene);
     fp->two_sided = scene->two_sided;
     convert_camera(&fp->camera, scene->camera);
 }
@@ -405,14 +435,41 @@ QL_INLINE bool hit_tri(const fp_tri_t *tri, const fp_ray_t *ray, float t_max,
     return true;
 }
 
+/* Is a position inside the hull? No coordinate is negative. */
+QL_INLINE bool is_inside(const fp_scene_t *fp, fp_vec_t p)
+{
+    const float *box = fp->hull_box;
+
+    return less(box[0], p.x) && less(p.x, box[1]) && less(box[2], p.y) &&
+           less(p.y, box[3]) && less(box[4], p.z) && less(p.z, box[5]);
+}
+
+/* The triangle of the hull through which a ray leaves. */
+static bool leave_hull(const fp_scene_t *fp, const fp_ray_t *ray, fp_hit_t *hit)
+{
+    for (uint32_t i = fp->hull_first; i < fp->tri_count; i++) {
+        float det;
+
+        if (dot(fp->shades[i].n, ray->direction) < 0.0f &&
+                hit_tri(fp->tris + i, ray, ray->t_max, &hit->t, &det)) {
+            hit->triangle = i;
+            hit->front = det > 0.0f;
+            return true;
+        }
+    }
+    return false;
+}
+
 bool fp_closest(const fp_scene_t *fp, const fp_ray_t *ray, fp_hit_t *hit)
 {
+    const bool inside = is_inside(fp, ray->origin);
     struct {
         float t;
         uint16_t link, count;
     } stack[STACK_MAX];
     const slabs_t s = slabs_begin(ray);
-    unsigned depth = 0, link = fp->root_link, count = fp->root_count;
+    unsigned depth = 0, link = inside ? fp->inner_link : fp->root_link;
+    unsigned count = inside ? fp->inner_count : fp->root_count;
     float nearest = ray->t_max;
     const float t_min = ray->t_min;
 
@@ -447,6 +504,9 @@ bool fp_closest(const fp_scene_t *fp, const fp_ray_t *ray, fp_hit_t *hit)
         }
         do {
             if (depth == 0) {
+                if (inside && !(nearest < ray->t_max)) {
+                    return leave_hull(fp, ray, hit);
+                }
                 hit->t = nearest;
                 return nearest < ray->t_max;
             }
@@ -463,7 +523,10 @@ bool fp_occluded(const fp_scene_t *fp, const fp_ray_t *ray)
         uint16_t link, count;
     } stack[STACK_MAX];
     const slabs_t s = slabs_begin(ray);
-    unsigned depth = 0, link = fp->root_link, count = fp->root_count;
+    const bool inside = is_inside(fp, ray->origin) &&
+                        is_inside(fp, add(ray->origin, ray->direction));
+    unsigned depth = 0, link = inside ? fp->inner_link : fp->root_link;
+    unsigned count = inside ? fp->inner_count : fp->root_count;
     const float t_min = ray->t_min, t_max = ray->t_max;
 
     for (;;) {

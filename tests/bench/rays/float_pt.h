@@ -7,7 +7,7 @@
  * on a miss, points on emitters, cosine-distributed directions in a frame. It
  * takes its tree and triangles from the blob, so that both tracers search the
  * same tree, and its random numbers from the core, so that both follow the same
- * paths. */
+ * paths. Walls around the scene are apart for both, as ql_hull.h has it. */
 
 #ifndef FLOAT_PT_H
 #define FLOAT_PT_H
@@ -59,6 +59,11 @@ typedef struct {
     const fp_light_t *lights;
     uint32_t light_count;
     uint16_t root_link, root_count;
+    /* What lies inside the scene's hull, a box within it, and its triangles:
+     * those from hull_first to tri_count. Without a hull the box is empty. */
+    uint16_t inner_link, inner_count;
+    float hull_box[6]; /* low x, high x, low y, .. */
+    uint32_t hull_first, tri_count;
     bool two_sided;
     fp_camera_t camera;
 } fp_scene_t;
