@@ -60,7 +60,7 @@ grep -v '^#' "$dir/rows"
         source = place[i]
         sub(/:[0-9?]+( .*)?$/, "", source)
         if (source ~ /\/(firmware\/(blob|app)|hal|tests)\/|\/ql_crc/ ||
-            name[depth] ~ /_init/)
+            name[depth] ~ /_init|^reach_of$|^ql_blob_/) # once a picture
             return
         sub(/.*\//, "", source)
         if (source == "??")
