@@ -201,7 +201,7 @@
 #endif
 
 /* QL_CFG_SMALL: 0 or 1. Short code where fast and short code differ; results
- * are the same bits. Saves 4,700 bytes of 16,400, and a path costs 2.3 times
+ * are the same bits. Saves 4,700 bytes of 16,400, and a path costs 2.6 times
  * the instructions on a Cortex-M0: products, real numbers, hashes, the
  * triangle test and the walk through the tree are functions, once each;
  * reciprocals and CRCs need no table. */

@@ -88,11 +88,13 @@ fi
     END {
         print hex ": flash " grouped(flash) " of " grouped(memory["FLASH"]) \
             " bytes, RAM " grouped(ram) " of " grouped(memory["RAM"])
-        if (instructions != "" && kind == "estimated")
+        if (instructions == "" || hz == 0) # a port need not say its clock
+            exit
+        if (kind == "estimated")
             printf "about %s s or more at %g MHz (%s million instructions" \
                 " estimated, one a cycle)\n", about(instructions / hz), \
                 hz / 1e6, about(instructions / 1e6)
-        else if (instructions != "")
+        else
             printf "at least %.*f s at %g MHz (%s counted instructions," \
                 " one a cycle)\n", instructions / hz < 9.95, \
                 instructions / hz, hz / 1e6, grouped(instructions)

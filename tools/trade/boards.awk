@@ -17,7 +17,7 @@ FNR == 1 {
 }
 /^BOARD_CORE := / { core = $3 }
 /^BOARD_SIZE := / { size = $3 }
-core != "" && size != "" {
+core != "" && size != "" && board in hz { # a port need not say its clock
     split(size, px, "x")
     printf "BOARD(\"%s\", \"%s\", %s, %s, %s)\n", board, core, hz[board], \
         px[1], px[2]
